@@ -1,0 +1,1 @@
+//! Measures of terrain: spectra and their fits.

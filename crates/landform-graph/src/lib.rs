@@ -1,0 +1,11 @@
+//! The simulation space of Landform.
+//!
+//! A [`Lattice`] is the graph that agents live on (thesis, sections 2.5 and 3.2.3): the
+//! nodes of a 2-D grid or the voxels of a volume, joined to their neighbours by edges that
+//! are computed and never stored. This crate knows nothing of time, of agents or of files.
+
+mod lattice;
+mod neighbours;
+
+pub use lattice::{Boundary, Connectivity, Lattice, LatticeError};
+pub use neighbours::{Edge, Neighbours};

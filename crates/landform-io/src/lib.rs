@@ -1,0 +1,1 @@
+//! Rasters and meshes, in and out.

@@ -1,0 +1,1 @@
+//! Initial conditions: noise, ramps, hills and waves on a lattice.
