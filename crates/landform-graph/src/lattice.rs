@@ -91,6 +91,8 @@ pub struct Lattice {
     spacing: f64,
     connectivity: Connectivity,
     boundary: [Boundary; 3],
+    /// Lengths in metres of edges over a face, over an edge and over a corner of a cell.
+    edge_lengths: [f64; 3],
 }
 
 impl Lattice {
@@ -110,7 +112,7 @@ impl Lattice {
         }
         let size = [size[0], size[1], 1];
         let boundary = [boundary[0], boundary[1], Boundary::Open];
-        Self::checked(Self { size, spacing, connectivity, boundary })
+        Self::checked(size, spacing, connectivity, boundary)
     }
 
     /// A 3-D lattice of `size = [columns, rows, layers]` voxels, `spacing` metres apart.
@@ -126,13 +128,35 @@ impl Lattice {
         if !connectivity.is_volume() {
             return Err(LatticeError::Dimensions { connectivity, dimensions: 3 });
         }
-        Self::checked(Self { size, spacing, connectivity, boundary })
+        Self::checked(size, spacing, connectivity, boundary)
     }
 
-    fn checked(lattice: Self) -> Result<Self, LatticeError> {
+    fn checked(
+        size: [usize; 3],
+        spacing: f64,
+        connectivity: Connectivity,
+        boundary: [Boundary; 3],
+    ) -> Result<Self, LatticeError> {
+        let edge_lengths = [spacing, spacing * 2.0_f64.sqrt(), spacing * 3.0_f64.sqrt()];
+        let lattice = Self { size, spacing, connectivity, boundary, edge_lengths };
+        lattice.check_axes()?;
+        if !(spacing > 0.0 && spacing.is_finite()) {
+            return Err(LatticeError::Spacing(spacing));
+        }
+        let [width, height, depth] = size;
+        width
+            .checked_mul(height)
+            .and_then(|area| area.checked_mul(depth))
+            .filter(|&count| count <= u32::MAX as usize)
+            .ok_or(LatticeError::TooLarge(size))?;
+        Ok(lattice)
+    }
+
+    /// Whether every axis has enough nodes for its boundary.
+    fn check_axes(&self) -> Result<(), LatticeError> {
         for (axis, name) in ['x', 'y', 'z'].into_iter().enumerate() {
-            let nodes = lattice.size[axis];
-            let periodic = lattice.boundary[axis] == Boundary::Periodic;
+            let nodes = self.size[axis];
+            let periodic = self.boundary[axis] == Boundary::Periodic;
             let (least, why) = match periodic {
                 true => (3, " because it is periodic"),
                 false => (1, ""),
@@ -140,20 +164,11 @@ impl Lattice {
             if nodes < least {
                 return Err(LatticeError::TooSmall { axis: name, nodes, least, why });
             }
-            if periodic && nodes % 2 == 1 && lattice.connectivity == Connectivity::FourEight {
+            if periodic && nodes % 2 == 1 && self.connectivity == Connectivity::FourEight {
                 return Err(LatticeError::OddPeriodic { axis: name, nodes });
             }
         }
-        if !(lattice.spacing > 0.0 && lattice.spacing.is_finite()) {
-            return Err(LatticeError::Spacing(lattice.spacing));
-        }
-        let [width, height, depth] = lattice.size;
-        width
-            .checked_mul(height)
-            .and_then(|area| area.checked_mul(depth))
-            .filter(|&count| count <= u32::MAX as usize)
-            .ok_or(LatticeError::TooLarge(lattice.size))?;
-        Ok(lattice)
+        Ok(())
     }
 
     /// Number of nodes.
@@ -199,6 +214,11 @@ impl Lattice {
     /// Whether the axis (0 = x, 1 = y, 2 = z) closes on itself.
     pub fn is_periodic(&self, axis: usize) -> bool {
         self.boundary[axis] == Boundary::Periodic
+    }
+
+    /// Lengths in metres of edges that move along one, two and three axes.
+    pub fn edge_lengths(&self) -> &[f64; 3] {
+        &self.edge_lengths
     }
 
     /// Index of the node at column `x`, row `y`, layer `z`, which must lie in the lattice.

@@ -6,6 +6,10 @@
 
 mod lattice;
 mod neighbours;
+#[cfg(test)]
+mod testing;
+mod visit;
 
 pub use lattice::{Boundary, Connectivity, Lattice, LatticeError};
 pub use neighbours::{Edge, Neighbours};
+pub use visit::{EdgeReferences, LatticeEdge, NeighbourNodes, NodeEdges};

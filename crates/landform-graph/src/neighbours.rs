@@ -49,25 +49,39 @@ const fn squared_length(step: [i8; 3]) -> i32 {
 #[derive(Clone, Debug)]
 pub struct Neighbours<'a> {
     lattice: &'a Lattice,
+    node: usize,
     origin: [usize; 3],
+    /// No step leads over a border, so indices need neither wrapping nor checking.
+    interior: bool,
     steps: std::slice::Iter<'static, [i8; 3]>,
+}
+
+impl Neighbours<'_> {
+    #[inline]
+    fn target(&self, step: [i8; 3]) -> Option<usize> {
+        if self.interior {
+            return Some(self.node.wrapping_add_signed(self.lattice.index_offset(step)));
+        }
+        self.lattice.offset(self.origin, step.map(isize::from))
+    }
 }
 
 impl Iterator for Neighbours<'_> {
     type Item = Edge;
 
+    #[inline]
     fn next(&mut self) -> Option<Edge> {
-        for &step in self.steps.by_ref() {
-            if let Some(node) = self.lattice.offset(self.origin, step.map(isize::from)) {
-                let distance = self.lattice.step_length(step);
-                return Some(Edge { node, step, distance });
+        loop {
+            let &step = self.steps.next()?;
+            if let Some(node) = self.target(step) {
+                return Some(Edge { node, step, distance: self.lattice.step_length(step) });
             }
         }
-        None
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        (0, self.steps.size_hint().1)
+        let most = self.steps.len();
+        (if self.interior { most } else { 0 }, Some(most))
     }
 }
 
@@ -75,9 +89,26 @@ impl Lattice {
     /// The edges that leave `node`: over axes (faces) first, then over diagonals.
     ///
     /// The order is the same at every node and on every run. Cost: constant a neighbour.
+    #[inline]
     pub fn neighbours(&self, node: usize) -> Neighbours<'_> {
         let origin = self.coordinates(node);
-        Neighbours { lattice: self, origin, steps: self.steps_at(origin).iter() }
+        let interior = self.is_interior(origin);
+        let steps = self.steps_at(origin).iter();
+        Neighbours { lattice: self, node, origin, interior, steps }
+    }
+
+    /// Whether no edge that leaves `origin` reaches over a border, be it open or periodic.
+    #[inline]
+    pub fn is_interior(&self, origin: [usize; 3]) -> bool {
+        let inside = |axis: usize| origin[axis] > 0 && origin[axis] + 1 < self.size()[axis];
+        inside(0) && inside(1) && (inside(2) || !self.connectivity().is_volume())
+    }
+
+    /// Difference of node indices over `step` where no border is crossed.
+    #[inline]
+    fn index_offset(&self, step: [i8; 3]) -> isize {
+        let [x, y, z] = step.map(isize::from);
+        x + self.width() as isize * (y + self.height() as isize * z)
     }
 
     /// The steps that a node at `origin` may take, whether or not they leave the lattice.
@@ -108,11 +139,104 @@ impl Lattice {
         Some(self.node(target))
     }
 
-    /// Length in metres of an edge over `step`.
+    /// Length in metres of an edge over `step`, which moves by at most one node an axis.
+    #[inline]
     pub fn step_length(&self, step: [i8; 3]) -> f64 {
-        match squared_length(step) {
-            1 => self.spacing(),
-            squared => self.spacing() * f64::from(squared).sqrt(),
+        // A step of no length never occurs among edges; the mask keeps the index in range.
+        self.edge_lengths()[(squared_length(step) - 1) as usize % 3]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Boundary::{self, Open, Periodic};
+    use crate::testing::any_lattice;
+    use proptest::prelude::*;
+
+    /// Edges by definition: every other node, its displacement folded on periodic axes.
+    fn edges_by_definition(lattice: &Lattice, node: usize) -> Vec<(usize, f64)> {
+        let from = lattice.coordinates(node);
+        let is_edge = |steps: [isize; 3]| {
+            let axes = steps.iter().filter(|&&s| s != 0).count();
+            let near = steps.iter().all(|s| s.abs() <= 1);
+            near && match lattice.connectivity() {
+                Connectivity::Four | Connectivity::Voxel6 => axes == 1,
+                Connectivity::FourEight => axes == 1 || axes == 2 && (from[0] + from[1]) % 2 == 0,
+                Connectivity::Eight | Connectivity::Voxel18 => axes == 1 || axes == 2,
+                Connectivity::Voxel26 => axes >= 1,
+            }
+        };
+        let displacement = |other: usize| {
+            let to = lattice.coordinates(other);
+            std::array::from_fn(|axis| {
+                let direct = to[axis] as isize - from[axis] as isize;
+                let size = lattice.size()[axis] as isize;
+                match lattice.is_periodic(axis) {
+                    true if direct > size / 2 => direct - size,
+                    true if direct < -(size / 2) => direct + size,
+                    _ => direct,
+                }
+            })
+        };
+        let length = |steps: [isize; 3]| {
+            lattice.spacing() * (steps.iter().map(|s| s * s).sum::<isize>() as f64).sqrt()
+        };
+        (0..lattice.node_count())
+            .map(|other| (other, displacement(other)))
+            .filter(|&(_, steps)| is_edge(steps))
+            .map(|(other, steps)| (other, length(steps)))
+            .collect()
+    }
+
+    proptest! {
+        #[test]
+        fn neighbours_are_those_of_the_definition(lattice in any_lattice()) {
+            for node in 0..lattice.node_count() {
+                let mut found: Vec<_> =
+                    lattice.neighbours(node).map(|edge| (edge.node, edge.distance)).collect();
+                found.sort_by_key(|edge| edge.0);
+                prop_assert_eq!(found, edges_by_definition(&lattice, node));
+            }
+        }
+
+        #[test]
+        fn every_edge_has_its_opposite(lattice in any_lattice()) {
+            for node in 0..lattice.node_count() {
+                for edge in lattice.neighbours(node) {
+                    let back = lattice.neighbours(edge.node).find(|back| back.node == node);
+                    prop_assert_eq!(back.map(|back| back.step), Some(edge.step.map(|s| -s)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn four_eight_alternates_degrees_eight_and_four() {
+        let torus = Lattice::plane([6, 4], 1.0, Connectivity::FourEight, [Periodic; 2]).unwrap();
+        for node in 0..torus.node_count() {
+            let [x, y, _] = torus.coordinates(node);
+            let degree = torus.neighbours(node).count();
+            assert_eq!(degree, if (x + y) % 2 == 0 { 8 } else { 4 }, "node {node}");
+        }
+    }
+
+    #[test]
+    fn degrees_inside_are_those_of_the_name() {
+        let degree = |connectivity: Connectivity, boundary: Boundary| {
+            let lattice = match connectivity.is_volume() {
+                true => Lattice::volume([5, 4, 3], 2.0, connectivity, [boundary; 3]).unwrap(),
+                false => Lattice::plane([5, 4], 2.0, connectivity, [boundary; 2]).unwrap(),
+            };
+            let [x, y, z] = lattice.size().map(|size| size / 2);
+            lattice.neighbours(lattice.node([x, y, z])).count()
+        };
+        for boundary in [Open, Periodic] {
+            assert_eq!(degree(Connectivity::Four, boundary), 4);
+            assert_eq!(degree(Connectivity::Eight, boundary), 8);
+            assert_eq!(degree(Connectivity::Voxel6, boundary), 6);
+            assert_eq!(degree(Connectivity::Voxel18, boundary), 18);
+            assert_eq!(degree(Connectivity::Voxel26, boundary), 26);
         }
     }
 }
