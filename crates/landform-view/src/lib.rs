@@ -1,1 +1,25 @@
 //! Pictures and animations of terrain.
+
+mod atomic_file;
+mod camera;
+mod colour_map;
+mod error;
+mod height_field;
+mod horizon;
+mod image;
+mod light;
+mod march;
+pub mod perspective;
+pub mod relief;
+mod shade;
+mod surface;
+mod texture;
+mod water;
+
+pub use colour_map::ColourMap;
+pub use error::{MOST_PIXELS, ViewError};
+pub use height_field::HeightField;
+pub use image::Image;
+pub use light::Light;
+pub use shade::Ground;
+pub use water::Water;

@@ -1,0 +1,98 @@
+//! The camera of perspective views.
+
+use glam::DVec3;
+
+/// A pinhole camera: positions in metres, x east, y north, z up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where it stands.
+    pub position: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    /// Half of the picture's width over the distance to the picture plane.
+    half_width: f64,
+    size: [f64; 2],
+}
+
+impl Camera {
+    /// A camera at `position` that looks towards a compass bearing, `pitch_deg` below the
+    /// horizon, with a horizontal field of view over a picture of `size = [width, height]`.
+    pub fn new(
+        position: DVec3,
+        bearing_deg: f64,
+        pitch_deg: f64,
+        field_of_view_deg: f64,
+        size: [usize; 2],
+    ) -> Self {
+        let (sin, cos) = bearing_deg.to_radians().sin_cos();
+        let (down, level) = pitch_deg.to_radians().sin_cos();
+        let forward = DVec3::new(sin * level, cos * level, -down);
+        let right = DVec3::new(cos, -sin, 0.0);
+        let up = right.cross(forward);
+        let half_width = (field_of_view_deg.to_radians() / 2.0).tan();
+        let size = size.map(|pixels| pixels as f64);
+        Self { position, forward, right, up, half_width, size }
+    }
+
+    /// Unit direction of the ray through a place of the picture: column and row in pixels from
+    /// its top left corner, pixel centres at halves.
+    pub fn ray(&self, column: f64, row: f64) -> DVec3 {
+        let scale = 2.0 * self.half_width / self.size[0];
+        let x = (column - self.size[0] / 2.0) * scale;
+        let y = (self.size[1] / 2.0 - row) * scale;
+        (self.forward + self.right * x + self.up * y).normalize()
+    }
+
+    /// Column and row of the picture, in pixels, at which a point appears; nothing for points
+    /// that are not in front of the camera.
+    pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
+        let offset = point - self.position;
+        let depth = offset.dot(self.forward);
+        let scale = self.size[0] / (2.0 * self.half_width * depth);
+        let column = self.size[0] / 2.0 + offset.dot(self.right) * scale;
+        let row = self.size[1] / 2.0 - offset.dot(self.up) * scale;
+        (depth > 0.0).then_some([column, row])
+    }
+
+    /// Angle between the rays of neighbouring pixels in the middle, in radians.
+    pub(crate) fn pixel_angle(&self) -> f64 {
+        2.0 * self.half_width / self.size[0]
+    }
+
+    /// This camera moved so that all the points fill the picture as far as `margin`, the free
+    /// share of it on each side, allows.
+    pub(crate) fn framing(mut self, points: &[DVec3], margin: f64) -> Self {
+        const ROUNDS: usize = 24;
+        let room = [1.0, self.size[1] / self.size[0]].map(|part| part * (1.0 - 2.0 * margin));
+        let mut target = points.iter().sum::<DVec3>() / points.len() as f64;
+        for _ in 0..ROUNDS {
+            let distance = points.iter().map(|&point| self.least_distance(point - target, room));
+            let distance = distance.fold(f64::MIN_POSITIVE, f64::max);
+            self.position = target - self.forward * distance;
+            let shift = self.off_centre(points) * distance * self.half_width;
+            target += shift;
+        }
+        self
+    }
+
+    /// Least distance to a target from which a point beside it is inside the picture.
+    fn least_distance(&self, offset: DVec3, room: [f64; 2]) -> f64 {
+        let depth = offset.dot(self.forward);
+        let across = offset.dot(self.right).abs() / (self.half_width * room[0]);
+        let along = offset.dot(self.up).abs() / (self.half_width * room[1]);
+        across.max(along) - depth
+    }
+
+    /// Where the middle of the points' frame lies, in half picture widths from the centre.
+    fn off_centre(&self, points: &[DVec3]) -> DVec3 {
+        let places: Vec<[f64; 2]> = points.iter().filter_map(|&p| self.project(p)).collect();
+        let middle = |axis: usize| {
+            let values = places.iter().map(|place| place[axis]);
+            let high = values.clone().fold(f64::NEG_INFINITY, f64::max);
+            let low = values.fold(f64::INFINITY, f64::min);
+            (high + low) / 2.0 - self.size[axis] / 2.0
+        };
+        (self.right * middle(0) - self.up * middle(1)) * (2.0 / self.size[0])
+    }
+}

@@ -1,0 +1,114 @@
+//! Colours of a surface in its light, before any camera looks at it.
+
+use rayon::prelude::*;
+
+use crate::ViewError;
+use crate::colour_map::ColourMap;
+use crate::horizon::{sky_view, sun_visibility};
+use crate::light::{Light, Rgb, decode, mix, tint};
+use crate::surface::Surface;
+
+/// Colour of the light that the ground throws into hollows, as a share of the ground's own
+/// colour times the sun.
+const BOUNCE: f32 = 0.35;
+
+/// What the ground looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// Colours by height.
+    pub colours: ColourMap,
+    /// Heights in metres of the first and the last colour; the field's own range when missing.
+    pub range_m: Option<[f64; 2]>,
+    /// Height in metres between contour lines; none when missing.
+    pub contour_m: Option<f64>,
+}
+
+impl Ground {
+    /// Colours of a map over the whole range of heights, without contour lines.
+    pub fn new(colours: ColourMap) -> Self {
+        Self { colours, range_m: None, contour_m: None }
+    }
+
+    /// Checks the range and the contour interval.
+    pub(crate) fn check(&self) -> Result<(), ViewError> {
+        let finite = [f64::MIN, f64::MAX];
+        for height in self.range_m.unwrap_or_default() {
+            ViewError::check_option("range_m", height, finite, "a finite height in metres")?;
+        }
+        let interval = self.contour_m.unwrap_or(1.0);
+        let range = [f64::MIN_POSITIVE, f64::MAX];
+        ViewError::check_option("contour_m", interval, range, "a positive number of metres")
+    }
+}
+
+/// Linear colours of every node of a surface.
+pub(crate) fn shade(surface: &Surface, ground: &Ground, light: &Light) -> Vec<Rgb> {
+    let sun = sun_visibility(surface, light);
+    let sky = sky_view(surface);
+    let lamp = Lamp::new(light);
+    let [low, high] = ground.range_m.unwrap_or([surface.datum, surface.metres(surface.highest)]);
+    let span = if high == low { 1.0 } else { high - low };
+    let mut colours = vec![[0.0; 3]; sun.len()];
+    colours.par_chunks_mut(surface.columns).enumerate().for_each(|(row, line)| {
+        for (column, colour) in line.iter_mut().enumerate() {
+            let node = column + surface.columns * row;
+            let metres = surface.metres(surface.heights[node]);
+            let slope = surface.slope(column, row);
+            let mut own = ground.colours.linear((metres - low) / span);
+            if let Some(interval) = ground.contour_m {
+                own = own.map(|channel| channel * contour(surface, metres, slope, interval));
+            }
+            *colour = lamp.lit(own, slope, sun[node], sky[node]);
+        }
+    });
+    colours
+}
+
+/// A light prepared for many slopes.
+struct Lamp {
+    direction: [f32; 3],
+    sun: Rgb,
+    sky: Rgb,
+    shadow: f32,
+    spread: f32,
+}
+
+impl Lamp {
+    fn new(light: &Light) -> Self {
+        let scaled = |colour: [u8; 3], strength: f64| {
+            colour.map(|channel| decode(channel) * strength as f32)
+        };
+        Self {
+            direction: light.direction().map(|part| part as f32),
+            sun: scaled(light.sun_colour, light.sun),
+            sky: scaled(light.sky_colour, light.sky),
+            shadow: light.shadow as f32,
+            spread: light.spread as f32,
+        }
+    }
+
+    /// Colour of a slope (towards east and north) that sees shares `sun` and `sky` of both.
+    fn lit(&self, own: Rgb, [east, north]: [f32; 2], sun: f32, sky: f32) -> Rgb {
+        let [x, y, z] = self.direction;
+        let upright = 1.0 / (1.0 + east * east + north * north).sqrt();
+        let facing = (upright * (z - east * x - north * y)).max(0.0);
+        let direct = facing * (1.0 - self.shadow * (1.0 - sun));
+        // The mean over all bearings of a sun that stands as high.
+        let around = upright * z;
+        let direct = mix([direct; 3], [around; 3], self.spread)[0];
+        let sunlight = self.sun.map(|channel| channel * direct);
+        let skylight = self.sky.map(|channel| channel * sky);
+        let bounced = tint(own, self.sun).map(|channel| channel * BOUNCE * (1.0 - sky));
+        std::array::from_fn(|channel| {
+            own[channel] * (sunlight[channel] + skylight[channel] + bounced[channel])
+        })
+    }
+}
+
+/// Darkness of contour lines: 1 away from them, less on them; about a node wide.
+fn contour(surface: &Surface, metres: f64, [east, north]: [f32; 2], interval: f64) -> f32 {
+    let to_line = (metres / interval - (metres / interval).round()).abs() * interval;
+    let rise = f64::from(east.hypot(north)) * surface.spacing / surface.exaggeration;
+    let nodes = to_line / rise.max(1e-12);
+    0.55 + 0.45 * (nodes - 0.3).clamp(0.0, 1.0) as f32
+}

@@ -1,0 +1,200 @@
+//! The surface that is drawn: a height field resampled with smooth slopes.
+
+use rayon::prelude::*;
+
+use crate::{HeightField, ViewError};
+
+/// A fine grid of heights between which pictures interpolate.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    /// Number of columns.
+    pub(crate) columns: usize,
+    /// Number of rows.
+    pub(crate) rows: usize,
+    /// Distance between nodes, in metres.
+    pub(crate) spacing: f64,
+    /// Whether the surface continues at its other side.
+    pub(crate) periodic: bool,
+    /// Heights in metres above `datum`, exaggerated.
+    pub(crate) heights: Vec<f32>,
+    /// Height of the lowest node of the field, in metres.
+    pub(crate) datum: f64,
+    /// Vertical exaggeration.
+    pub(crate) exaggeration: f64,
+    /// Height of the highest node of the surface, in exaggerated metres above `datum`.
+    pub(crate) highest: f32,
+}
+
+/// Where the nodes of a surface lie on the field.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sampling {
+    /// Number of columns and rows of the surface.
+    pub(crate) size: [usize; 2],
+    /// Column and row of the field at the first node of the surface.
+    pub(crate) origin: f64,
+    /// Nodes of the field per node of the surface.
+    pub(crate) step: f64,
+    /// Whether field and surface continue at their other side.
+    pub(crate) periodic: bool,
+}
+
+impl Surface {
+    /// Resamples a field with Catmull-Rom splines (Catmull and Rom 1974), which pass through
+    /// every height and have continuous slopes. Beyond an open edge the field goes on straight.
+    /// Where the surface is the coarser one, heights are averaged over its cells first.
+    pub(crate) fn sample(
+        field: &HeightField<'_>,
+        sampling: Sampling,
+        exaggeration: f64,
+    ) -> Result<Self, ViewError> {
+        let [columns, rows] = sampling.size;
+        ViewError::check_size("the resampled surface", sampling.size, 2)?;
+        let [datum, _] = field.range();
+        let block = (sampling.step.floor() as usize).max(1);
+        let nodes = [field.width(), field.height()];
+        let coarse = Nodes::average(field, datum, exaggeration, block);
+        let stops = |count: usize, nodes: usize| -> Vec<Stop> {
+            (0..count).map(|index| Stop::new(&sampling, index, block, nodes)).collect()
+        };
+        let across = stops(columns, nodes[0].div_ceil(block));
+        let down = stops(rows, nodes[1].div_ceil(block));
+        let mut heights = vec![0.0; columns * rows];
+        heights.par_chunks_mut(columns).zip(&down).for_each(|(line, row)| {
+            for (height, column) in line.iter_mut().zip(&across) {
+                *height = coarse.spline(column, row);
+            }
+        });
+        let highest = heights.iter().copied().fold(0.0, f32::max);
+        let spacing = field.spacing_m() * sampling.step;
+        let periodic = sampling.periodic;
+        Ok(Self { columns, rows, spacing, periodic, heights, datum, exaggeration, highest })
+    }
+
+    /// Height at a node; beyond an edge that of the edge, or of the other side when periodic.
+    #[inline]
+    pub(crate) fn at(&self, column: isize, row: isize) -> f32 {
+        let column = bound(column, self.columns, self.periodic);
+        let row = bound(row, self.rows, self.periodic);
+        self.heights[column + self.columns * row]
+    }
+
+    /// Slope at a node towards the east and the north by central differences; one-sided at
+    /// open edges.
+    pub(crate) fn slope(&self, column: usize, row: usize) -> [f32; 2] {
+        let along = |size: usize, index: usize| -> (isize, isize) {
+            match self.periodic {
+                true => (index as isize - 1, index as isize + 1),
+                false => (index.saturating_sub(1) as isize, (index + 1).min(size - 1) as isize),
+            }
+        };
+        let (west, east) = along(self.columns, column);
+        let (north, south) = along(self.rows, row);
+        let spacing = self.spacing as f32;
+        let rise = self.at(east, row as isize) - self.at(west, row as isize);
+        let climb = self.at(column as isize, north) - self.at(column as isize, south);
+        [rise / ((east - west) as f32 * spacing), climb / ((south - north) as f32 * spacing)]
+    }
+
+    /// Height in metres, without exaggeration, of a height of this surface.
+    pub(crate) fn metres(&self, height: f32) -> f64 {
+        self.datum + f64::from(height) / self.exaggeration
+    }
+
+    /// Height of this surface of a height in metres.
+    pub(crate) fn raised(&self, metres: f64) -> f32 {
+        ((metres - self.datum) * self.exaggeration) as f32
+    }
+}
+
+/// Index of a node, kept in the grid by clamping or by wrapping.
+#[inline]
+pub(crate) fn bound(index: isize, size: usize, periodic: bool) -> usize {
+    match periodic {
+        true => index.rem_euclid(size as isize) as usize,
+        false => index.clamp(0, size as isize - 1) as usize,
+    }
+}
+
+/// Heights that are interpolated: those of the field, or means over blocks of them.
+struct Nodes {
+    columns: usize,
+    heights: Vec<f32>,
+}
+
+impl Nodes {
+    fn average(field: &HeightField<'_>, datum: f64, exaggeration: f64, block: usize) -> Self {
+        let (width, height) = (field.width(), field.height());
+        let [columns, rows] = [width, height].map(|size| size.div_ceil(block));
+        let mean = |column: usize, row: usize| -> f32 {
+            let across = column * block..((column + 1) * block).min(width);
+            let down = row * block..((row + 1) * block).min(height);
+            let count = (across.len() * down.len()) as f64;
+            let lines = down.map(|line| &field.heights()[line * width..][across.clone()]);
+            let sum: f64 = lines.flatten().map(|height| height - datum).sum();
+            (exaggeration * sum / count) as f32
+        };
+        let mut heights = vec![0.0; columns * rows];
+        heights.par_chunks_mut(columns).enumerate().for_each(|(row, line)| {
+            line.iter_mut().enumerate().for_each(|(column, height)| *height = mean(column, row));
+        });
+        Self { columns, heights }
+    }
+
+    fn spline(&self, column: &Stop, row: &Stop) -> f32 {
+        let mut sum = 0.0;
+        for (&line, &share) in row.nodes.iter().zip(&row.weights) {
+            let heights = &self.heights[line * self.columns..][..self.columns];
+            let nodes = column.nodes.iter().zip(&column.weights);
+            sum += share * nodes.map(|(&node, weight)| heights[node] * weight).sum::<f32>();
+        }
+        sum
+    }
+}
+
+/// The four nodes beside a place on an axis and their weights.
+struct Stop {
+    nodes: [usize; 4],
+    weights: [f32; 4],
+}
+
+impl Stop {
+    fn new(sampling: &Sampling, index: usize, block: usize, nodes: usize) -> Self {
+        let place = sampling.origin + sampling.step * index as f64;
+        let centre = (block as f64 - 1.0) / 2.0;
+        let place = (place - centre) / block as f64;
+        let first = place.floor();
+        let share = (place - first) as f32;
+        let first = first as isize;
+        let mut weights = catmull_rom(share);
+        if !sampling.periodic {
+            extend_straight(&mut weights, first, nodes);
+        }
+        let node = |offset| bound(first + offset, nodes, sampling.periodic);
+        Self { nodes: [node(-1), node(0), node(1), node(2)], weights }
+    }
+}
+
+/// Weights of four nodes for a place at `share` between the second and the third.
+fn catmull_rom(share: f32) -> [f32; 4] {
+    let (t, t2, t3) = (share, share * share, share * share * share);
+    [
+        0.5 * (2.0 * t2 - t - t3),
+        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+        0.5 * (4.0 * t2 - 3.0 * t3 + t),
+        0.5 * (t3 - t2),
+    ]
+}
+
+/// Replaces a missing outer node by the straight continuation of the two beside it.
+fn extend_straight(weights: &mut [f32; 4], first: isize, nodes: usize) {
+    if first == 0 {
+        weights[1] += 2.0 * weights[0];
+        weights[2] -= weights[0];
+        weights[0] = 0.0;
+    }
+    if first + 2 == nodes as isize {
+        weights[2] += 2.0 * weights[3];
+        weights[1] -= weights[3];
+        weights[3] = 0.0;
+    }
+}
