@@ -1,16 +1,294 @@
-//! What `ron` refuses, as messages.
-use super::diagnostic::Diagnostic;
-use super::source::{Position, Source, Span};
+//! What `ron` refuses, as messages with a place.
+//!
+//! Errors inside the parameters of a registered type reach `ron` as text (they pass through an
+//! erased reader), others as values of an enum. Both read the same, so the text is what is
+//! looked at; a test holds every form that is used here to the words of `ron`.
+
 use ron::error::{Error, SpannedError};
 
-/// Temporary.
+use super::diagnostic::Diagnostic;
+use super::lexer::{Symbol, Token, Tokens};
+use super::nearest::{nearest, one_of};
+use super::source::{Position, Source, Span};
+use super::tree::{Entry, Kind, Node, Tree};
+
+/// Values that were expected, in ron's words and ours.
+const VALUES: [(&str, &str); 14] = [
+    ("Expected float", "a number"),
+    ("Expected integer", "a whole number"),
+    ("Expected boolean", "true or false"),
+    ("Expected string", "a string in double quotes"),
+    ("Expected char", "a character in single quotes"),
+    ("Expected byte string", "a byte string"),
+    ("Expected option", "None or Some(...)"),
+    ("Expected unit", "()"),
+    ("Expected opening `[`", "a list in square brackets"),
+    ("Expected opening `{`", "a map in curly brackets"),
+    ("Expected opening `(`", "values in parentheses"),
+    ("Expected identifier", "a name"),
+    ("Unexpected leading underscore in a number", "a number"),
+    ("Integer is out of bounds", "a whole number that fits the range (not negative, if it counts)"),
+];
+
+/// Marks between values that were expected, in ron's words and ours.
+const MARKS: [(&str, &str); 8] = [
+    ("Expected comma", "a comma or the closing bracket"),
+    ("Expected colon", "a colon after the name of a field"),
+    ("Expected closing `]`", "`]`"),
+    ("Expected closing `)`", "`)`"),
+    ("Expected closing `}`", "`}`"),
+    ("Expected end of string", "a closing quote"),
+    ("Unclosed block comment", "the end of the comment, `*/`"),
+    ("Unexpected end of RON", "more text"),
+];
+
+/// The message for an error of `ron` about [`Source::text`], with a place.
+///
+/// Unknown names come with the nearest one; a missing field names its struct and points at
+/// it; a wrong value is shown with what was expected; a bracket, string or comment without an
+/// end is pointed at where it begins. The error of a reader of its own (`Error::custom`) that
+/// was written by [`Diagnostic`]'s `Display` gets its parts back.
 pub fn ron_diagnostic(source: &Source, error: &SpannedError) -> Diagnostic {
-    let offset =
-        |p: ron::error::Position| Position { line: p.line, column: p.col }.offset(source.text());
-    Diagnostic::new(message_of(&error.code))
-        .at(Span::new(offset(error.span.start), offset(error.span.end)))
+    let text = source.text();
+    let byte = |at: ron::error::Position| Position { line: at.line, column: at.col }.offset(text);
+    let (start, at) = (byte(error.span.start), byte(error.span.end));
+    let refused = Refused {
+        tree: Tree::parse(text),
+        words: error.code.to_string(),
+        span: Span::new(start.min(at), at),
+    };
+    refused.diagnostic()
 }
 
+/// The words for an error without a place.
 pub(super) fn message_of(code: &Error) -> String {
-    code.to_string()
+    let words = code.to_string();
+    let mut letters = words.chars();
+    let first = letters.next().into_iter().flat_map(char::to_lowercase);
+    first.chain(letters).collect()
+}
+
+/// An error with what is needed to explain it.
+struct Refused<'a> {
+    tree: Tree<'a>,
+    words: String,
+    span: Span,
+}
+
+impl Refused<'_> {
+    fn diagnostic(&self) -> Diagnostic {
+        let words = self.words.as_str();
+        let starts = |beginnings: &[&str]| beginnings.iter().any(|start| words.starts_with(start));
+        let meant = |table: &[(&str, &'static str)]| {
+            table.iter().find(|(theirs, _)| *theirs == words).map(|&(_, ours)| ours)
+        };
+        if starts(&["Unexpected missing field", "missing field"]) {
+            self.missing_field()
+        } else if starts(&["Unexpected field", "unknown field"]) {
+            self.unknown_name("field")
+        } else if starts(&["Unexpected variant", "Unexpected enum variant", "unknown variant"]) {
+            self.unknown_name("name")
+        } else if starts(&["Unexpected duplicate field", "duplicate field"]) {
+            let field = quoted_names(words).next().unwrap_or_default();
+            Diagnostic::new(format!("the field {field:?} is given twice")).at(self.span)
+        } else if let Some(ours) = meant(&MARKS) {
+            self.wrong_mark(ours)
+        } else if let Some(ours) = meant(&VALUES) {
+            self.wrong_value(ours)
+        } else {
+            self.other()
+        }
+    }
+
+    fn other(&self) -> Diagnostic {
+        let words = self.words.as_str();
+        let found = words.strip_prefix("Expected ").and_then(|rest| rest.split_once(" but found "));
+        if let Some((struct_name, found)) = found.filter(|_| words.starts_with("Expected struct ")) {
+            let (name, found) = (quoted_names(struct_name).next(), quoted_names(found).next());
+            let name = name.unwrap_or_default();
+            return Diagnostic::new(format!("unknown name {:?}", found.unwrap_or_default()))
+                .at(self.span)
+                .expected(format!("{name}, or parentheses without a name"));
+        }
+        if let Some((expected, found)) = found {
+            let found = found.strip_suffix(" instead").unwrap_or(found);
+            return Diagnostic::new(format!("{} has {found}", self.label())).at(self.place()).expected(expected);
+        }
+        if let Some(name) = words.strip_prefix("Expected opening `(` for struct ") {
+            let name = quoted_names(name).next().unwrap_or_default();
+            return self.wrong_value(&format!("the fields of {name} in parentheses"));
+        }
+        match words {
+            "Non-whitespace trailing characters" => {
+                let end = self.token().map_or(self.span.end, |token| token.span.end);
+                Diagnostic::new("there is more text after the end of the scenario")
+                    .at(Span::new(self.span.end, end))
+                    .help("look for a closing bracket too many, or parentheses missing around it all")
+            }
+            words if words.starts_with("Exceeded recursion limit") => {
+                Diagnostic::new("brackets are nested too deep").at(self.span).expected("at most 128 levels")
+            }
+            _ => self.in_its_own_words(),
+        }
+    }
+
+    /// The error as it was written, taken apart again if it was a diagnostic.
+    fn in_its_own_words(&self) -> Diagnostic {
+        let (rest, help) = cut_off(&self.words, "; help: ");
+        let (message, expected) = cut_off(rest, "; expected: ");
+        let span = if self.span.is_empty() { self.place() } else { self.span };
+        Diagnostic { message: message.to_owned(), span: Some(span), expected, help }
+    }
+
+    fn unknown_name(&self, what: &str) -> Diagnostic {
+        let (head, tail) = self.words.split_once(", ").unwrap_or((&self.words, ""));
+        let mut heads = quoted_names(head);
+        let found = heads.next().unwrap_or_default();
+        let owner = heads.next().or_else(|| self.owner_name());
+        let owner = owner.map_or(String::new(), |owner| format!(" in {owner}"));
+        let known: Vec<&str> = quoted_names(tail).collect();
+        Diagnostic::new(format!("unknown {what} {found:?}{owner}"))
+            .at(self.span)
+            .did_you_mean(nearest(found, known.iter().copied()))
+            .expected(one_of(known))
+    }
+
+    /// Name of the struct around the place of the error.
+    fn owner_name(&self) -> Option<&str> {
+        let place = self.tree.at(self.span.start)?;
+        place.name.as_ref().filter(|_| place.open.is_some()).map(|name| name.name)
+    }
+
+    fn missing_field(&self) -> Diagnostic {
+        let mut names = quoted_names(&self.words);
+        let field = names.next().unwrap_or_default();
+        let closes = |node: &Node| {
+            node.close.is_some_and(|close| close.start == self.span.end || close.end == self.span.end)
+        };
+        let owner = self.entries().filter(|(_, node)| closes(node)).last();
+        let (label, span) = match owner {
+            Some((key, node)) => {
+                let name = node.name.as_ref().or(key.and_then(|entry| entry.key.as_ref()));
+                (name.map(|name| name.name), name.map(|name| name.span).or(node.open))
+            }
+            None => (None, None),
+        };
+        let label = label.or(names.next()).unwrap_or("the value");
+        Diagnostic::new(format!("{label} lacks the field {field:?}"))
+            .at(span.unwrap_or(self.span))
+            .expected(format!("{field}: ..."))
+            .help(format!("add {field} between the parentheses of {label}"))
+    }
+
+    fn wrong_value(&self, expected: &str) -> Diagnostic {
+        let span = self.place();
+        let found = match span.of(self.tree.text) {
+            "" => "missing".to_owned(),
+            found => first_letters(found),
+        };
+        Diagnostic::new(format!("{} cannot be {found}", self.label())).at(span).expected(expected)
+    }
+
+    fn wrong_mark(&self, expected: &str) -> Diagnostic {
+        let token = self.token();
+        let at_end = token.is_none_or(|token| {
+            matches!(token.symbol, Symbol::Close(_) | Symbol::UnclosedComment)
+                || token.symbol == Symbol::Text { closed: false }
+        });
+        let is_open = |span: &&Span| span.start <= self.span.end;
+        let unclosed = self.tree.unclosed.iter().rfind(is_open).filter(|_| at_end);
+        if let Some(&span) = unclosed {
+            return self.unclosed(span);
+        }
+        match token {
+            Some(token) if token.span.start < self.span.end && token.symbol == Symbol::Number => {
+                self.wrong_value("a whole number, or one written in another way")
+            }
+            Some(token) => {
+                let found = first_letters(token.span.of(self.tree.text));
+                Diagnostic::new(format!("unexpected {found}")).at(token.span).expected(expected)
+            }
+            None => Diagnostic::new("the text ends too early").at(self.span).expected(expected),
+        }
+    }
+
+    fn unclosed(&self, span: Span) -> Diagnostic {
+        let opening = span.of(self.tree.text);
+        let (what, end) = match opening.chars().next() {
+            Some('(') => ("parenthesis", "`)`"),
+            Some('[') => ("square bracket", "`]`"),
+            Some('{') => ("curly bracket", "`}`"),
+            Some('/') => ("comment", "`*/`"),
+            _ => ("string", "a closing quote"),
+        };
+        let position = Position::of(self.tree.text, self.span.end);
+        let limit = match self.token() {
+            Some(token) if matches!(token.symbol, Symbol::Close(_)) => {
+                format!("the `{}` in line {}", token.span.of(self.tree.text), position.line)
+            }
+            _ => "the end of the text".to_owned(),
+        };
+        Diagnostic::new(format!("the {what} that begins here is never closed"))
+            .at(span)
+            .expected(format!("{end} before {limit}"))
+    }
+
+    /// The token at the place of the error, or the first one after it.
+    fn token(&self) -> Option<Token> {
+        Tokens::new(self.tree.text).find(|token| token.span.end > self.span.end)
+    }
+
+    /// The value at the place of the error: the whole of a small one, the start of others.
+    fn place(&self) -> Span {
+        let at = self.span.end;
+        let starts = self.entries().map(|(_, node)| node).filter(|node| node.span.start == at).last();
+        match starts.or_else(|| self.tree.at(at)) {
+            Some(node) if node.span.start == at || node.open.is_none() => node.span,
+            _ => self.token().filter(|token| token.span.start == at).map_or(self.span, |token| token.span),
+        }
+    }
+
+    /// What the value at the place of the error belongs to, for the start of a message.
+    fn label(&self) -> String {
+        let holds = |node: &Node| node.span.start <= self.span.end && self.span.end <= node.span.end;
+        let key = |entry: &Entry| entry.key.as_ref().map(|key| key.name.to_owned());
+        let around = self.entries().filter(|(_, node)| holds(node));
+        let named = around.filter_map(|(entry, node)| Some((key(entry?)?, node))).last();
+        match named {
+            Some((key, node)) if matches!(node.kind, Kind::List | Kind::Tuple | Kind::Map) && node.span.start != self.span.end => {
+                format!("a value in {key}")
+            }
+            Some((key, _)) => key,
+            None => "the value".to_owned(),
+        }
+    }
+
+    /// Every value with the entry that it belongs to, parents before children.
+    fn entries(&self) -> impl Iterator<Item = (Option<&Entry<'_>>, &Node<'_>)> {
+        let root = self.tree.root.as_ref();
+        let below = root.into_iter().flat_map(Node::walk).flat_map(|node| &node.entries);
+        root.map(|root| (None, root)).into_iter().chain(below.map(|entry| (Some(entry), &entry.value)))
+    }
+}
+
+/// The names between backticks.
+fn quoted_names(words: &str) -> impl Iterator<Item = &str> {
+    words.split('`').skip(1).step_by(2).map(|name| name.strip_prefix("r#").unwrap_or(name))
+}
+
+/// The text before the last `mark`, and what follows it.
+fn cut_off<'a>(words: &'a str, mark: &str) -> (&'a str, Option<String>) {
+    match words.rsplit_once(mark) {
+        Some((before, after)) => (before, Some(after.to_owned())),
+        None => (words, None),
+    }
+}
+
+/// The beginning of a piece of RON, for a message.
+fn first_letters(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
 }

@@ -1,0 +1,93 @@
+//! What a group of agents holds: state on nodes, members, globals, staged births and deaths.
+
+use bevy_ecs::change_detection::ContiguousMut;
+use bevy_ecs::component::Component;
+use bevy_ecs::resource::Resource;
+use bevy_ecs::world::World;
+
+use super::NodeSet;
+
+/// A group of agents, at most one at a node. Implement it for an empty marker type.
+pub trait AgentGroup: Send + Sync + 'static {
+    /// What each agent knows.
+    type State: Copy + Default + Send + Sync + 'static;
+    /// What the whole group knows (search radius, largest value met, ...).
+    type Globals: Default + Send + Sync + 'static;
+    /// Name of the group in reports.
+    const NAME: &'static str;
+}
+
+/// The component that holds the state of a group's agent at a node; meaningless where the
+/// group has no agent. It is on every node, so that node order survives births and deaths.
+#[derive(Component)]
+pub struct AgentState<G: AgentGroup>(pub(super) G::State);
+
+impl<G: AgentGroup> Default for AgentState<G> {
+    fn default() -> Self {
+        Self(G::State::default())
+    }
+}
+
+/// Members, globals and staged changes of a group.
+#[derive(Resource)]
+pub struct Group<G: AgentGroup> {
+    /// What the whole group knows.
+    pub globals: G::Globals,
+    pub(super) members: NodeSet,
+    pub(super) claimed: NodeSet,
+    pub(super) leaving: NodeSet,
+    pub(super) born: Vec<u32>,
+    pub(super) births: Vec<(u32, G::State)>,
+    pub(super) deaths: Vec<u32>,
+}
+
+impl<G: AgentGroup> Group<G> {
+    /// A group without members over `nodes` nodes.
+    pub(crate) fn new(nodes: usize) -> Self {
+        Self {
+            globals: G::Globals::default(),
+            members: NodeSet::new(nodes),
+            claimed: NodeSet::new(nodes),
+            leaving: NodeSet::new(nodes),
+            born: vec![0; nodes],
+            births: Vec::new(),
+            deaths: Vec::new(),
+        }
+    }
+
+    /// The members that there are, without what is staged.
+    pub fn members(&self) -> &NodeSet {
+        &self.members
+    }
+
+    /// Bytes that a group takes a node besides the component.
+    pub(crate) const BYTES: usize = 5;
+}
+
+/// Makes staged deaths and then births of `G` real, in node order, stamped with `tick`.
+pub(crate) fn apply_staged<G: AgentGroup>(world: &mut World, tick: u32) {
+    let mut states = world.query::<&mut AgentState<G>>();
+    world.resource_scope::<Group<G>, ()>(|world, mut group| {
+        let group = &mut *group;
+        for node in group.deaths.drain(..) {
+            group.members.remove(node as usize);
+            group.leaving.remove(node as usize);
+        }
+        if group.births.is_empty() {
+            return;
+        }
+        group.births.sort_unstable_by_key(|&(node, _)| node);
+        let Some(column) = states.contiguous_iter_mut(world).ok().and_then(|mut all| all.next())
+        else {
+            return;
+        };
+        let column = ContiguousMut::bypass_change_detection_split(column).0;
+        for (node, state) in group.births.drain(..) {
+            let node = node as usize;
+            column[node].0 = state;
+            group.born[node] = tick;
+            group.members.insert(node);
+            group.claimed.remove(node);
+        }
+    });
+}

@@ -1,0 +1,53 @@
+//! What a field is: its name, its unit and the component that holds its value at a node.
+
+use bevy_ecs::component::Component;
+use bytemuck::TransparentWrapper;
+
+/// A type of number that a field may hold at a node.
+pub trait Number: Copy + Default + Send + Sync + 'static {
+    /// The number as a double, for pictures, files and metrics.
+    fn to_f64(self) -> f64;
+
+    /// The number nearest to a double, saturating at the ends of the type's range.
+    fn from_f64(value: f64) -> Self;
+}
+
+macro_rules! numbers {
+    ($($type:ty),*) => {$(
+        impl Number for $type {
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            fn from_f64(value: f64) -> Self {
+                if (0.5 as $type) == (0 as $type) { value.round() as $type } else { value as $type }
+            }
+        }
+    )*};
+}
+
+numbers!(f64, f32, u8, i32, u32);
+
+/// A field: a number at every node of the lattice, known by a name.
+///
+/// Implement it for an empty marker type; nothing needs to be derived.
+pub trait NodeField: Send + Sync + 'static {
+    /// Type of the number at a node.
+    type Value: Number;
+    /// Name in scenarios, reports and files, in lower case.
+    const NAME: &'static str;
+    /// Unit of the values, `"1"` when they have none.
+    const UNIT: &'static str;
+    /// What the value means, in a few words.
+    const MEANING: &'static str;
+}
+
+/// The component that holds the value of field `F` at a node.
+#[derive(Component, TransparentWrapper)]
+#[repr(transparent)]
+pub struct Column<F: NodeField>(F::Value);
+
+impl<F: NodeField> Default for Column<F> {
+    fn default() -> Self {
+        Self(F::Value::default())
+    }
+}

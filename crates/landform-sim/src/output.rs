@@ -1,0 +1,57 @@
+//! Outputs: sinks that write pictures, rasters and meshes while a run goes on.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::parameters::{Parameters, Problem};
+use crate::snapshot::Snapshot;
+
+/// When an output looks at the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// Before the first iteration.
+    Start,
+    /// After an iteration.
+    Iteration,
+    /// After the last iteration of a stage, and after its [`Moment::Iteration`].
+    StageEnd,
+    /// After everything; outputs finish their files now.
+    End,
+}
+
+/// A file that an output wrote.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct OutputFile {
+    /// Path, relative to the output folder.
+    pub file: PathBuf,
+    /// What it is: `picture`, `animation`, `raster`, `mesh`, `series`, `field`.
+    pub kind: String,
+}
+
+/// An output, chosen by name in a scenario.
+pub trait Output: Parameters {
+    /// Name in scenarios.
+    const NAME: &'static str;
+
+    /// Fields that the output needs, so that a wrong name is refused before the run.
+    fn fields(&self) -> Vec<String>;
+
+    /// The sink that does the work during one run.
+    fn open(&self) -> Box<dyn Sink>;
+}
+
+/// An output at work.
+pub trait Sink {
+    /// Looks at the run and writes what is due into `folder`. Returns the files that are
+    /// finished; a file must never be left half-written.
+    ///
+    /// # Errors
+    /// The [`Problem`] names the parameter or the file.
+    fn observe(
+        &mut self,
+        moment: Moment,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Problem>;
+}

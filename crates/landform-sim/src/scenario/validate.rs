@@ -1,0 +1,73 @@
+//! Checks of a scenario that need no domain: ranges, stages, stop rules, repeated names.
+
+use super::{Scenario, StageEntry};
+use crate::parameters::Problem;
+use crate::registry::{AnyParameters, Chosen};
+
+impl Scenario {
+    /// Everything wrong with the scenario that its text alone shows, with full paths.
+    pub(crate) fn problems(&self) -> Vec<Problem> {
+        let mut problems = ranges("domain", &self.domain);
+        for (index, entry) in self.initial.iter().enumerate() {
+            problems.extend(ranges(&format!("initial[{index}].from"), &entry.from));
+        }
+        for (index, metric) in self.metrics.iter().enumerate() {
+            problems.extend(ranges(&format!("metrics[{index}]"), metric));
+        }
+        for (index, output) in self.outputs.iter().enumerate() {
+            problems.extend(ranges(&format!("outputs[{index}]"), output));
+        }
+        for (index, stage) in self.stages.iter().enumerate() {
+            problems.extend(
+                stage
+                    .problems()
+                    .into_iter()
+                    .map(|problem| below(&format!("stages[{index}]"), problem)),
+            );
+        }
+        if self.stages.is_empty() {
+            problems.push(Problem::new("stages", "the scenario has no stage", "at least one"));
+        }
+        if self.measure_every == 0 {
+            let message = "measurements cannot follow each other by zero iterations";
+            problems.push(Problem::new("measure_every", message, "at least 1"));
+        }
+        problems
+    }
+}
+
+impl StageEntry {
+    fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for (index, process) in self.processes.iter().enumerate() {
+            problems.extend(ranges(&format!("processes[{index}]"), process));
+            if self.processes[..index].iter().any(|other| other.name == process.name) {
+                let message = format!("`{}` stands twice in one stage", process.name);
+                problems.push(
+                    Problem::new(format!("processes[{index}]"), message, "each process once")
+                        .help("put the second one into a stage of its own"),
+                );
+            }
+        }
+        if self.processes.is_empty() {
+            problems.push(Problem::new("processes", "the stage has no process", "at least one"));
+        } else if problems.is_empty() {
+            problems.extend(self.stop.check(&self.ends()).err());
+        }
+        problems
+    }
+}
+
+/// Values out of range in an entry that stands at `path`.
+fn ranges<T: ?Sized + AnyParameters>(path: &str, entry: &Chosen<T>) -> Vec<Problem> {
+    entry.value.check().into_iter().map(|problem| below(path, problem)).collect()
+}
+
+/// Puts `path` in front of the parameter of a problem.
+pub(crate) fn below(path: &str, problem: Problem) -> Problem {
+    let parameter = match problem.parameter.as_str() {
+        "" => path.to_owned(),
+        parameter => format!("{path}.{parameter}"),
+    };
+    Problem { parameter, ..problem }
+}

@@ -1,0 +1,242 @@
+//! Building a run: domain, fields, nodes, initial conditions, all checked before the first step.
+
+use std::path::Path;
+
+use bevy_app::App;
+use landform_graph::Lattice;
+
+use super::memory;
+use crate::clock::Clock;
+use crate::domain::Domain;
+use crate::fault::Fault;
+use crate::field::{Bed, FieldEntry, FieldTable, NodeField, Sand, surface};
+use crate::initial::InitialContext;
+use crate::ledger::Ledger;
+use crate::metric::Series;
+use crate::nodes::spawn_nodes;
+use crate::output::Sink;
+use crate::parameters::Problem;
+use crate::process::{Access, Declaration, GroupEntry};
+use crate::random::RandomStream;
+use crate::registry::{AnyMetric, Chosen};
+use crate::scenario::validate::below;
+use crate::scenario::{Scenario, StageEntry};
+use crate::text::nearest;
+
+/// What a run may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Largest memory in bytes; a run whose estimate is above is refused.
+    pub memory_bytes: u64,
+}
+
+impl Default for Limits {
+    /// 16 GiB.
+    fn default() -> Self {
+        Self { memory_bytes: 16 << 30 }
+    }
+}
+
+/// A run that is ready to go.
+pub struct Simulation {
+    pub(super) app: App,
+    pub(super) domain: Domain,
+    pub(super) title: String,
+    pub(super) stages: Vec<StageEntry>,
+    pub(super) metrics: Vec<Chosen<dyn AnyMetric>>,
+    pub(super) measure_every: u64,
+    pub(super) sinks: Vec<(&'static str, Box<dyn Sink>)>,
+    pub(super) series: Series,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Simulation {
+    /// Builds the run of a checked scenario. Relative paths are relative to `folder`.
+    ///
+    /// # Errors
+    /// The [`Problem`] holds the full path of the parameter in the scenario.
+    pub fn new(scenario: Scenario, folder: &Path, limits: Limits) -> Result<Self, Problem> {
+        let declarations: Vec<Vec<Declaration>> = scenario
+            .stages
+            .iter()
+            .map(|stage| stage.processes.iter().map(|each| each.value.declaration()).collect())
+            .collect();
+        let fields = collect_fields(&declarations)?;
+        let flat: Vec<Declaration> = declarations.into_iter().flatten().collect();
+        let bytes = memory::bytes_per_node(fields.bytes_per_node(), &flat);
+        if let Some(nodes) = scenario.domain.value.nodes() {
+            memory::check(nodes, bytes, limits.memory_bytes)?;
+        }
+        let domain =
+            scenario.domain.value.make(folder).map_err(|problem| below("domain", problem))?;
+        memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
+        check_processes(&scenario.stages, &domain.lattice)?;
+        check_names(&scenario, &fields, &flat)?;
+
+        let mut app = App::empty();
+        let world = app.world_mut();
+        fields.declare_all(world);
+        let groups = collect_groups(&flat);
+        groups.iter().for_each(|group| (group.declare)(world));
+        spawn_nodes(world, domain.lattice.clone());
+        groups.iter().for_each(|group| (group.make)(world, domain.lattice.node_count()));
+        world.insert_resource(fields);
+        world.insert_resource(Clock { seed: scenario.seed, ..Clock::default() });
+        world.insert_resource(Ledger::default());
+        world.insert_resource(Fault::default());
+        fill(&mut app, &scenario, &domain, folder)?;
+
+        Ok(Self {
+            app,
+            warnings: domain.remarks.clone(),
+            domain,
+            title: scenario.title,
+            sinks: scenario.outputs.iter().map(|each| (each.name, each.value.open())).collect(),
+            stages: scenario.stages,
+            metrics: scenario.metrics,
+            measure_every: scenario.measure_every,
+            series: Series::default(),
+        })
+    }
+
+    /// The lattice of the run.
+    pub fn lattice(&self) -> &Lattice {
+        &self.domain.lattice
+    }
+
+    /// The domain of the run.
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// What was measured so far.
+    pub fn series(&self) -> &Series {
+        &self.series
+    }
+}
+
+/// All fields that the processes name, and the surface when there is a bed or sand.
+fn collect_fields(declarations: &[Vec<Declaration>]) -> Result<FieldTable, Problem> {
+    let mut fields = FieldTable::default();
+    for (stage, processes) in declarations.iter().enumerate() {
+        for (index, uses) in processes.iter().enumerate() {
+            for (entry, _) in uses.fields() {
+                if !fields.insert(*entry) {
+                    let message = format!("field `{}` is defined twice, differently", entry.name);
+                    let path = format!("stages[{stage}].processes[{index}]");
+                    return Err(Problem::new(path, message, "one definition of the field")
+                        .help("rename the field in one of the plugins"));
+                }
+            }
+        }
+    }
+    if [Bed::NAME, Sand::NAME].iter().any(|name| fields.get(name).is_ok()) {
+        let meaning = "elevation of the surface: bed and sand";
+        fields.insert(FieldEntry::derived("surface", "m", meaning, surface));
+    }
+    Ok(fields)
+}
+
+/// The groups of all processes, each once.
+fn collect_groups(declarations: &[Declaration]) -> Vec<GroupEntry> {
+    let mut groups: Vec<GroupEntry> = Vec::new();
+    for group in declarations.iter().flat_map(|uses| &uses.groups) {
+        if groups.iter().all(|known| known.name != group.name) {
+            groups.push(*group);
+        }
+    }
+    groups
+}
+
+fn check_processes(stages: &[StageEntry], lattice: &Lattice) -> Result<(), Problem> {
+    for (stage, entry) in stages.iter().enumerate() {
+        for (index, process) in entry.processes.iter().enumerate() {
+            let path = format!("stages[{stage}].processes[{index}]");
+            process.value.validate(lattice).map_err(|problem| below(&path, problem))?;
+        }
+    }
+    Ok(())
+}
+
+/// Checks that every field that is named exists and that every field that is read is provided.
+fn check_names(
+    scenario: &Scenario,
+    fields: &FieldTable,
+    declarations: &[Declaration],
+) -> Result<(), Problem> {
+    for (index, entry) in scenario.initial.iter().enumerate() {
+        let path = format!("initial[{index}].field");
+        let field = known_field(fields, &entry.field, path.clone())?;
+        if !field.is_stored() {
+            let message = format!("field `{}` is computed from others", entry.field);
+            return Err(Problem::new(path, message, "a stored field"));
+        }
+    }
+    for (index, output) in scenario.outputs.iter().enumerate() {
+        for field in output.value.fields() {
+            known_field(fields, &field, format!("outputs[{index}].field"))?;
+        }
+    }
+    let mut provided: Vec<&str> = scenario.initial.iter().map(|e| e.field.as_str()).collect();
+    for uses in declarations {
+        for (entry, access) in uses.fields() {
+            if access == Access::Reads && entry.is_stored() && !provided.contains(&entry.name) {
+                let message =
+                    format!("nothing provides field `{}` ({})", entry.name, entry.meaning);
+                let help =
+                    format!("add (field: \"{}\", from: Uniform(value: 0.0)) say", entry.name);
+                return Err(Problem::new("initial", message, "an entry for it").help(help));
+            }
+            provided.push(entry.name);
+        }
+    }
+    Ok(())
+}
+
+fn known_field<'a>(
+    fields: &'a FieldTable,
+    name: &str,
+    path: String,
+) -> Result<&'a FieldEntry, Problem> {
+    fields.get(name).map_err(|unknown| {
+        let problem = Problem::new(
+            path,
+            format!("no field is called `{name}`"),
+            format!("one of {}", unknown.known.join(", ")),
+        );
+        match nearest(name, unknown.known.iter().copied()) {
+            Some(guess) => problem.help(format!("did you mean `{guess}`?")),
+            None => problem,
+        }
+    })
+}
+
+/// Fills the fields by the initial conditions, in order.
+fn fill(app: &mut App, scenario: &Scenario, domain: &Domain, folder: &Path) -> Result<(), Problem> {
+    let nodes = domain.lattice.node_count();
+    for (index, entry) in scenario.initial.iter().enumerate() {
+        let path = format!("initial[{index}]");
+        let [low, high, ..] = RandomStream::new(scenario.seed, "initial").block(0, index, 0);
+        let seed = u64::from(low) | u64::from(high) << 32;
+        let context = InitialContext { domain, seed, folder };
+        let from = format!("{path}.from");
+        let new = entry.from.value.values(&context).map_err(|problem| below(&from, problem))?;
+        if new.len() != nodes {
+            let message = format!("{} values for {nodes} nodes", new.len());
+            return Err(Problem::new(from, message, "one value a node"));
+        }
+        let world = app.world_mut();
+        let field = known_field(world.resource::<FieldTable>(), &entry.field, path)?;
+        let field = *field;
+        let mut values = field.read(world);
+        values.iter_mut().zip(&new).for_each(|(value, &new)| {
+            *value = entry.combine.apply(*value, new);
+        });
+        if let Some(node) = values.iter().position(|value| !value.is_finite()) {
+            let message = format!("field `{}` is {} at node {node}", field.name, values[node]);
+            return Err(Problem::new(from, message, "finite values"));
+        }
+        field.write(world, &values);
+    }
+    Ok(())
+}

@@ -1,0 +1,15 @@
+//! Running a scenario: from its parts to a report.
+
+mod build;
+mod error;
+mod guard;
+mod memory;
+mod progress;
+mod report;
+mod run;
+mod stage;
+
+pub use build::{Limits, Simulation};
+pub use error::RunError;
+pub use progress::{Progress, ProgressHook};
+pub use report::{Report, StageReport};

@@ -1,0 +1,89 @@
+//! A stage at work: the schedules of its processes, one turn each at every iteration.
+
+use bevy_app::App;
+use bevy_ecs::schedule::{LogLevel, Schedule, ScheduleBuildSettings, ScheduleLabel, Schedules};
+
+use super::{RunError, guard};
+use crate::clock::Clock;
+use crate::field::FieldEntry;
+use crate::ledger::Budget;
+use crate::process::{Access, Begin, GroupEntry, Iterate};
+use crate::registry::{AnyProcess, Chosen};
+
+/// One process of a stage.
+pub(super) struct Turn {
+    pub(super) name: &'static str,
+    pub(super) written: Vec<FieldEntry>,
+    pub(super) budgets: Vec<Budget>,
+    groups: Vec<GroupEntry>,
+    iterate: Schedule,
+}
+
+/// Adds the processes of a stage to the app and runs their [`Begin`] systems.
+pub(super) fn begin(
+    app: &mut App,
+    processes: &[Chosen<dyn AnyProcess>],
+) -> Result<Vec<Turn>, RunError> {
+    let mut turns = Vec::with_capacity(processes.len());
+    for process in processes {
+        app.init_schedule(Begin).init_schedule(Iterate);
+        process.value.build(app);
+        let mut begin = take(app, Begin, process.name)?;
+        let iterate = take(app, Iterate, process.name)?;
+        let uses = process.value.declaration();
+        let written = uses.fields().filter(|(_, access)| *access == Access::Writes);
+        let turn = Turn {
+            name: process.name,
+            written: written.map(|(entry, _)| *entry).collect(),
+            groups: uses.groups.clone(),
+            budgets: uses.budgets.clone(),
+            iterate,
+        };
+        begin.run(app.world_mut());
+        apply_groups(app, &turn, 0);
+        guard::open_budgets(app.world_mut(), &turn);
+        guard::check(app.world_mut(), &turn)?;
+        turns.push(turn);
+    }
+    Ok(turns)
+}
+
+/// Runs one iteration: a turn of each process, its staged births and deaths, its checks.
+pub(super) fn iterate(app: &mut App, turns: &mut [Turn]) -> Result<(), RunError> {
+    for turn in turns {
+        turn.iterate.run(app.world_mut());
+        apply_groups(app, turn, 1);
+        guard::check(app.world_mut(), turn)?;
+    }
+    Ok(())
+}
+
+/// Makes births and deaths real; agents born now act `delay` iterations later at the earliest.
+fn apply_groups(app: &mut App, turn: &Turn, delay: u32) {
+    let tick = app.world().resource::<Clock>().tick as u32 + delay;
+    for group in &turn.groups {
+        (group.apply)(app.world_mut(), tick);
+    }
+}
+
+/// Takes the schedule that a plugin filled out of the app and makes it ready to run.
+fn take(
+    app: &mut App,
+    label: impl ScheduleLabel,
+    process: &'static str,
+) -> Result<Schedule, RunError> {
+    let broken = |message: String| RunError::Plugin { process: process.to_owned(), message };
+    let mut schedule = app
+        .world_mut()
+        .resource_mut::<Schedules>()
+        .remove(label)
+        .ok_or_else(|| broken("it removed a schedule of the framework".to_owned()))?;
+    // Two systems that touch the same data in an order that nobody stated would make results
+    // depend on the executor.
+    schedule.set_build_settings(ScheduleBuildSettings {
+        ambiguity_detection: LogLevel::Error,
+        ..ScheduleBuildSettings::default()
+    });
+    schedule.initialize(app.world_mut()).map_err(|error| broken(format!("{error:?}")))?;
+    Ok(schedule)
+}
