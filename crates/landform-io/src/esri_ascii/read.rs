@@ -1,0 +1,90 @@
+//! Grids from text.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+use super::header::{self, Failure, cut_off, number};
+use super::tokens::Tokens;
+use crate::files::RasterFile;
+use crate::{
+    CoordinateSystem, Encoding, Fault, IoError, Metadata, Place, Raster, ReadLimits, Sidecar,
+};
+
+/// Reads a grid, with its sidecar or the text of its coordinate system when there is one.
+///
+/// # Errors
+/// [`IoError`]: no such file, a header that is incomplete or contradicts itself, more cells
+/// than the limit or than the file can hold, words that are no numbers, or too many numbers.
+pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
+    let system = |error| IoError::system(path, "read", error);
+    let file = File::open(path).map_err(system)?;
+    let length = file.metadata().map_err(system)?.len();
+    let explain = |failure| match failure {
+        Failure::System(error) => system(error),
+        Failure::Content(fault) => fault.reading(path),
+    };
+    let mut tokens = Tokens::new(file);
+    let header = header::read(&mut tokens).map_err(explain)?;
+    let cells = limits.cells(path, &[header.columns, header.rows])?;
+    // A cell takes a digit and a separator, so a short file is known before memory is taken.
+    if (length + 1) / 2 < cells as u64 {
+        let problem = format!("the file has {length} bytes");
+        let expected = format!("at least {} bytes for {cells} cells", 2 * cells as u64 - 1);
+        return Err(cut_off(problem, expected, tokens.line()).reading(path));
+    }
+    let mut values = Vec::with_capacity(cells);
+    values.extend(header.first);
+    read_values(&mut tokens, cells, &mut values).map_err(explain)?;
+    let encoding = Encoding { no_data: header.no_data, ..Encoding::default() };
+    encoding.decode(&mut values);
+    let (metadata, coordinate_system) = description(path)?;
+    let mut georeference = header.georeference;
+    georeference.coordinate_system = coordinate_system;
+    let raster = Raster {
+        width: header.columns as usize,
+        height: header.rows as usize,
+        values,
+        no_data: header.no_data,
+        georeference: Some(georeference),
+    };
+    let raster = raster.checked().map_err(|fault| fault.reading(path))?;
+    Ok(RasterFile { raster, metadata, encoding })
+}
+
+fn read_values<R: Read>(
+    tokens: &mut Tokens<R>,
+    cells: usize,
+    values: &mut Vec<f64>,
+) -> Result<(), Failure> {
+    while let Some(token) = tokens.next()? {
+        if values.len() == cells {
+            let problem = format!("more numbers follow the {cells} of the header");
+            let advice = "correct ncols or nrows, or cut the rest off";
+            return Err(Fault::new(problem, "the end", advice).at(Place::Line(token.line)).into());
+        }
+        values.push(number(token.text, token.line)?);
+    }
+    if values.len() < cells {
+        let problem = format!("the numbers end after {}", values.len());
+        return Err(cut_off(problem, format!("{cells} numbers"), tokens.line()).into());
+    }
+    Ok(())
+}
+
+/// What the files beside say: the sidecar, else the text of the coordinate system.
+fn description(path: &Path) -> Result<(Metadata, CoordinateSystem), IoError> {
+    if let Some(sidecar) = Sidecar::read(path)? {
+        let system = sidecar.georeference.map(|place| place.coordinate_system);
+        return Ok((sidecar.metadata, system.unwrap_or_default()));
+    }
+    for extension in ["prj", "prj.txt"] {
+        let beside = path.with_extension(extension);
+        match fs::read_to_string(&beside) {
+            Ok(text) => return Ok((Metadata::default(), CoordinateSystem::from_text(&text))),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(IoError::system(&beside, "read", error)),
+        }
+    }
+    Ok(Default::default())
+}

@@ -1,0 +1,190 @@
+//! Rasters from GeoTIFF.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use tiff::TiffError;
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::gdal;
+use super::place::Tags;
+use crate::files::RasterFile;
+use crate::georeference::GeoKeys;
+use crate::{Encoding, Fault, IoError, Metadata, Place, Raster, ReadLimits};
+
+type Tiff = Decoder<BufReader<File>>;
+
+/// GDAL's metadata, which the decoder has no name for.
+const GDAL_METADATA: Tag = Tag::Unknown(42112);
+const TRANSFORMATION: Tag = Tag::ModelTransformationTag;
+
+/// Reads the first image of a GeoTIFF.
+///
+/// # Errors
+/// [`IoError`]: no such file, damaged or cut off, more than one band, more cells than the
+/// limit, a rotated raster, or no cell with a number.
+pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
+    let file = File::open(path).map_err(|error| IoError::system(path, "read", error))?;
+    let explain = |error| damage(error, Place::Whole).reading(path);
+    let mut tiff = Decoder::new(BufReader::new(file)).map_err(explain)?;
+    let (width, height) = tiff.dimensions().map_err(explain)?;
+    let cells = limits.cells(path, &[width.into(), height.into()])?;
+    tiff = tiff.with_limits(decoder_limits(cells));
+    let fault = |fault: Fault| fault.reading(path);
+    let [width, height] = [width, height].map(|size| size as usize);
+    let mut values = read_cells(&mut tiff, [width, height]).map_err(fault)?;
+    let georeference = tags(&mut tiff).map_err(explain)?.georeference().map_err(fault)?;
+    let (metadata, encoding) = description(&mut tiff).map_err(explain)?;
+    encoding.decode(&mut values);
+    let raster = Raster { width, height, values, no_data: encoding.no_data, georeference };
+    let raster = raster.checked().map_err(fault)?;
+    Ok(RasterFile { raster, metadata, encoding })
+}
+
+/// A strip may hold the whole image, but no more.
+fn decoder_limits(cells: usize) -> Limits {
+    let mut limits = Limits::default();
+    let whole = cells.saturating_mul(8).max(1 << 16);
+    limits.decoding_buffer_size = whole;
+    limits.intermediate_buffer_size = whole;
+    limits.ifd_value_size = (1 << 26).min(whole.max(1 << 20));
+    limits
+}
+
+/// What the decoder found wrong, for the reader of the message.
+fn damage(error: TiffError, place: Place) -> Fault {
+    let (expected, advice) = match &error {
+        TiffError::UnsupportedError(_) => (
+            "one band in strips or tiles, bare or compressed by deflate, LZW or PackBits",
+            "convert the file, for example with gdal_translate -co COMPRESS=DEFLATE",
+        ),
+        TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            ("more bytes", "the file is cut off: fetch or write it again")
+        }
+        TiffError::LimitsExceeded | TiffError::IntSizeError => {
+            ("strips no larger than the image", "the file is damaged: fetch or write it again")
+        }
+        _ => ("a TIFF file", "the file is damaged: fetch or write it again"),
+    };
+    Fault::new(error.to_string(), expected, advice).at(place)
+}
+
+/// Columns and rows of a strip or tile.
+fn chunk_size(tiff: &mut Tiff, [width, height]: [usize; 2]) -> Result<[usize; 2], Fault> {
+    let explain = |error| damage(error, Place::Whole);
+    let mut tag = |tag, default: usize| {
+        let found = tiff.find_tag_unsigned::<u32>(tag).map_err(explain)?;
+        Ok(found.map_or(default, |size| size as usize))
+    };
+    let size = match tag(Tag::TileWidth, 0)? {
+        0 => [width, tag(Tag::RowsPerStrip, height)?.min(height)],
+        tile_width => [tile_width, tag(Tag::TileLength, 0)?],
+    };
+    match size {
+        [0, _] | [_, 0] => {
+            let problem = format!("strips or tiles of {} x {} cells", size[0], size[1]);
+            let advice = "the file is damaged: fetch or write it again";
+            Err(Fault::new(problem, "at least one cell", advice))
+        }
+        size => Ok(size),
+    }
+}
+
+/// The cells, strip by strip or tile by tile.
+fn read_cells(tiff: &mut Tiff, size: [usize; 2]) -> Result<Vec<f64>, Fault> {
+    let [width, height] = size;
+    let bands = tiff.find_tag_unsigned::<u16>(Tag::SamplesPerPixel);
+    let bands = bands.map_err(|error| damage(error, Place::Whole))?.unwrap_or(1);
+    if bands != 1 {
+        let problem = format!("the image has {bands} bands");
+        let advice = "extract one, for example with gdal_translate -b 1";
+        return Err(Fault::new(problem, "one band of heights", advice));
+    }
+    let chunk = chunk_size(tiff, size)?;
+    let across = width.div_ceil(chunk[0]);
+    let count = across * height.div_ceil(chunk[1]);
+    let stored = match tiff.get_chunk_type() {
+        ChunkType::Strip => tiff.strip_count(),
+        ChunkType::Tile => tiff.tile_count(),
+    };
+    let stored = stored.map_err(|error| damage(error, Place::Whole))?;
+    if stored as usize != count {
+        let problem = format!("{stored} strips or tiles of {} x {} cells", chunk[0], chunk[1]);
+        let advice = "the file is damaged: fetch or write it again";
+        return Err(Fault::new(problem, format!("{count} to fill {width} x {height}"), advice));
+    }
+    let mut values = vec![0.0; width * height];
+    for index in 0..stored {
+        let place = Place::Chunk(index);
+        let part = tiff.read_chunk(index).map_err(|error| damage(error, place))?;
+        let column = index as usize % across * chunk[0];
+        let row = index as usize / across * chunk[1];
+        let columns = column..width.min(column + chunk[0]);
+        let rows = row..height.min(row + chunk[1]);
+        let part = numbers(part);
+        if part.len() < columns.len() * rows.len() {
+            let problem = format!("{} numbers", part.len());
+            let expected = format!("{} x {}", columns.len(), rows.len());
+            let advice = "the file is damaged: fetch or write it again";
+            return Err(Fault::new(problem, expected, advice).at(place));
+        }
+        for (row, part) in rows.zip(part.chunks(columns.len())) {
+            values[row * width..][columns.clone()].copy_from_slice(part);
+        }
+    }
+    Ok(values)
+}
+
+fn numbers(part: DecodingResult) -> Vec<f64> {
+    fn all<T: Into<f64>>(numbers: Vec<T>) -> Vec<f64> {
+        numbers.into_iter().map(Into::into).collect()
+    }
+    match part {
+        DecodingResult::F64(numbers) => numbers,
+        DecodingResult::F32(numbers) => all(numbers),
+        DecodingResult::F16(numbers) => numbers.into_iter().map(|v| v.to_f64()).collect(),
+        DecodingResult::I8(numbers) => all(numbers),
+        DecodingResult::I16(numbers) => all(numbers),
+        DecodingResult::I32(numbers) => all(numbers),
+        DecodingResult::U8(numbers) => all(numbers),
+        DecodingResult::U16(numbers) => all(numbers),
+        DecodingResult::U32(numbers) => all(numbers),
+        DecodingResult::I64(numbers) => numbers.into_iter().map(|v| v as f64).collect(),
+        DecodingResult::U64(numbers) => numbers.into_iter().map(|v| v as f64).collect(),
+    }
+}
+
+/// The tags that place the raster.
+fn tags(tiff: &mut Tiff) -> Result<Tags, TiffError> {
+    let mut doubles = |tag| match tiff.find_tag(tag)? {
+        Some(value) => value.into_f64_vec(),
+        None => Ok(Vec::new()),
+    };
+    let pixel_scale = doubles(Tag::ModelPixelScaleTag)?;
+    let tie_points = doubles(Tag::ModelTiepointTag)?;
+    let transformation = doubles(TRANSFORMATION)?;
+    let keys = GeoKeys {
+        doubles: doubles(Tag::GeoDoubleParamsTag)?,
+        directory: match tiff.find_tag(Tag::GeoKeyDirectoryTag)? {
+            Some(value) => value.into_u16_vec()?,
+            None => Vec::new(),
+        },
+        text: text(tiff, Tag::GeoAsciiParamsTag)?.unwrap_or_default(),
+    };
+    Ok(Tags { pixel_scale, tie_points, transformation, keys })
+}
+
+fn text(tiff: &mut Tiff, tag: Tag) -> Result<Option<String>, TiffError> {
+    tiff.find_tag(tag)?.map(|value| value.into_string()).transpose()
+}
+
+/// Metadata, scale, offset and the no-data number.
+fn description(tiff: &mut Tiff) -> Result<(Metadata, Encoding), TiffError> {
+    let xml = text(tiff, GDAL_METADATA)?.unwrap_or_default();
+    let (metadata, [scale, offset]) = gdal::parse(&xml);
+    let mark = text(tiff, Tag::GdalNodata)?;
+    let no_data = mark.and_then(|mark| mark.trim_end_matches('\0').trim().parse().ok());
+    Ok((metadata, Encoding { scale, offset, no_data }))
+}
