@@ -1,1 +1,52 @@
 //! Initial conditions: noise, ramps, hills and waves on a lattice.
+//!
+//! Every generator is a struct of parameters with documented units, ranges and defaults. It
+//! turns a lattice and a seed into a field of one value a node, in node order:
+//!
+//! ```
+//! use landform_graph::{Boundary, Connectivity, Lattice};
+//! use landform_synth::{InitialCondition, WhiteNoise};
+//!
+//! let lattice = Lattice::plane([64, 32], 10.0, Connectivity::Eight, [Boundary::Periodic; 2])?;
+//! let heights = WhiteNoise { amplitude_m: 2.0, ..Default::default() }.generate(&lattice, 7)?;
+//! assert!(heights.len() == 64 * 32 && heights.iter().all(|height| height.abs() <= 2.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! All generators give the same bits for the same lattice and seed on any number of threads,
+//! finite values for all the parameters that they accept, and fields without a seam on
+//! periodic axes.
+
+mod error;
+mod fbm;
+mod hills;
+mod noise;
+mod place;
+mod ramp;
+mod ridge;
+mod sinusoid;
+mod smooth;
+mod uniform;
+
+pub use error::SynthError;
+pub use fbm::{AmplitudeLaw, SpectralFbm};
+pub use hills::{Cone, GaussianHill};
+pub use noise::{Distribution, WhiteNoise};
+pub use ramp::Ramp;
+pub use ridge::{Ridge, RidgeCourse};
+pub use sinusoid::Sinusoid;
+pub use smooth::SmoothNoise;
+pub use uniform::Uniform;
+
+use landform_graph::Lattice;
+
+/// A way to fill a field before the first iteration.
+pub trait InitialCondition: Send + Sync {
+    /// One value for each node of `lattice`, in node order; `seed` is used by random fields
+    /// only.
+    ///
+    /// # Errors
+    /// [`SynthError`] if a parameter is out of its range or the field cannot be made on this
+    /// lattice.
+    fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError>;
+}

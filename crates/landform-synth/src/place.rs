@@ -1,0 +1,20 @@
+//! Places on the lattice as shares of its width and height, and distances to them.
+
+use landform_graph::Lattice;
+
+/// East and north distance in metres from `place` to a node, the short way round on periodic
+/// axes. `place` is a share of the width, from west to east, and of the height, from south to
+/// north: `[0.5, 0.5]` is the middle.
+pub(crate) fn offset_from(lattice: &Lattice, place: [f64; 2], node: usize) -> [f64; 2] {
+    let position = lattice.position(node).to_array();
+    [0, 1].map(|axis| {
+        let nodes = lattice.size()[axis] as f64;
+        let periodic = lattice.is_periodic(axis);
+        let extent = if periodic { nodes } else { nodes - 1.0 } * lattice.spacing();
+        let offset = position[axis] - place[axis] * extent;
+        match periodic {
+            true => offset - extent * (offset / extent).round(),
+            false => offset,
+        }
+    })
+}

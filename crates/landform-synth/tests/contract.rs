@@ -1,0 +1,157 @@
+//! What every generator keeps: length, finite values, same bits on any threads, refusals.
+
+use landform_graph::{Boundary, Connectivity, Lattice};
+use landform_synth::*;
+use serde_json::{Value, json};
+
+/// Makes a generator from its parameters as a scenario file would.
+fn parse(name: &str, parameters: Value) -> Result<Box<dyn InitialCondition>, serde_json::Error> {
+    Ok(match name {
+        "Uniform" => Box::new(serde_json::from_value::<Uniform>(parameters)?),
+        "WhiteNoise" => Box::new(serde_json::from_value::<WhiteNoise>(parameters)?),
+        "SmoothNoise" => Box::new(serde_json::from_value::<SmoothNoise>(parameters)?),
+        "Ramp" => Box::new(serde_json::from_value::<Ramp>(parameters)?),
+        "Sinusoid" => Box::new(serde_json::from_value::<Sinusoid>(parameters)?),
+        "Cone" => Box::new(serde_json::from_value::<Cone>(parameters)?),
+        "GaussianHill" => Box::new(serde_json::from_value::<GaussianHill>(parameters)?),
+        "Ridge" => Box::new(serde_json::from_value::<Ridge>(parameters)?),
+        "SpectralFbm" => Box::new(serde_json::from_value::<SpectralFbm>(parameters)?),
+        other => panic!("no generator {other}"),
+    })
+}
+
+/// Name and schema of every generator.
+fn generators() -> Vec<(&'static str, schemars::Schema)> {
+    vec![
+        ("Uniform", schemars::schema_for!(Uniform)),
+        ("WhiteNoise", schemars::schema_for!(WhiteNoise)),
+        ("SmoothNoise", schemars::schema_for!(SmoothNoise)),
+        ("Ramp", schemars::schema_for!(Ramp)),
+        ("Sinusoid", schemars::schema_for!(Sinusoid)),
+        ("Cone", schemars::schema_for!(Cone)),
+        ("GaussianHill", schemars::schema_for!(GaussianHill)),
+        ("Ridge", schemars::schema_for!(Ridge)),
+        ("SpectralFbm", schemars::schema_for!(SpectralFbm)),
+    ]
+}
+
+fn plane(size: [usize; 2], boundary: Boundary) -> Lattice {
+    Lattice::plane(size, 10.0, Connectivity::Eight, [boundary; 2]).unwrap()
+}
+
+fn lattices() -> Vec<Lattice> {
+    let open = [Boundary::Open; 3];
+    let volume = Lattice::volume([7, 5, 4], 10.0, Connectivity::Voxel26, open).unwrap();
+    let mut all: Vec<Lattice> =
+        [[40, 24], [9, 7], [1, 5], [1, 1]].map(|size| plane(size, Boundary::Open)).to_vec();
+    all.extend([[40, 24], [9, 7], [3, 3]].map(|size| plane(size, Boundary::Periodic)));
+    all.push(volume);
+    all
+}
+
+/// Numeric parameters of a generator with the limits in its schema.
+fn numbers(schema: &schemars::Schema) -> Vec<(String, f64, f64)> {
+    let properties = schema.as_value()["properties"].as_object().unwrap();
+    let limits = |spec: &Value| Some((spec["minimum"].as_f64()?, spec["maximum"].as_f64()?));
+    properties
+        .iter()
+        .filter_map(|(name, spec)| limits(spec).map(|(least, most)| (name.clone(), least, most)))
+        .collect()
+}
+
+#[test]
+fn every_parameter_is_documented() {
+    for (name, schema) in generators() {
+        assert!(schema.get("description").is_some(), "{name}");
+        for (parameter, spec) in schema.as_value()["properties"].as_object().unwrap() {
+            assert!(spec.get("description").is_some(), "{name}.{parameter}");
+            assert!(spec.get("default").is_some(), "{name}.{parameter}");
+            assert_eq!(parameter.ends_with("_m"), spec["x-unit"] == "m", "{name}.{parameter}");
+            assert_eq!(parameter.ends_with("_deg"), spec["x-unit"] == "deg", "{name}.{parameter}");
+        }
+    }
+}
+
+#[test]
+fn same_bits_on_any_number_of_threads() {
+    let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let [one, eight] = [on(1), on(8)];
+    for (name, _) in generators() {
+        let generator = parse(name, json!({})).unwrap();
+        for lattice in lattices() {
+            let bits = |seed| {
+                let field = generator.generate(&lattice, seed);
+                field.map(|field| field.into_iter().map(f64::to_bits).collect::<Vec<u64>>())
+            };
+            assert_eq!(one.install(|| bits(5)), eight.install(|| bits(5)), "{name}");
+        }
+    }
+}
+
+#[test]
+fn only_random_fields_depend_on_the_seed() {
+    let lattice = plane([40, 24], Boundary::Open);
+    for (name, _) in generators() {
+        let generator = parse(name, json!({})).unwrap();
+        let [first, second] = [1, 2].map(|seed| generator.generate(&lattice, seed).unwrap());
+        let random = ["WhiteNoise", "SmoothNoise", "SpectralFbm"].contains(&name);
+        assert_eq!(first != second, random, "{name}");
+    }
+}
+
+/// Every number is tried at both ends of the range that the schema states: the field is finite
+/// and of the right length, or refused for its lattice and not for its range.
+#[test]
+fn accepted_parameters_give_finite_fields() {
+    let mut fields = 0;
+    for (name, schema) in generators() {
+        for (parameter, least, most) in numbers(&schema) {
+            for value in [least, most] {
+                let generator = parse(name, json!({ parameter.clone(): value })).unwrap();
+                for lattice in lattices() {
+                    match generator.generate(&lattice, 3) {
+                        Ok(field) => {
+                            assert_eq!(field.len(), lattice.node_count());
+                            assert!(field.iter().all(|v| v.is_finite()), "{name}.{parameter}");
+                            fields += 1;
+                        }
+                        Err(SynthError::OutOfRange { parameter, value, least, .. }) => {
+                            let with_spacing = ["correlation_length_m", "wavelength_m"];
+                            assert!(with_spacing.contains(&parameter) && value < least);
+                        }
+                        Err(SynthError::Volume { .. }) => assert_eq!(name, "SpectralFbm"),
+                        Err(refusal) => {
+                            assert!(["Ramp", "Sinusoid"].contains(&name), "{refusal}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(fields > 300, "{fields} fields");
+}
+
+#[test]
+fn values_beyond_the_stated_range_are_refused() {
+    let lattice = plane([40, 24], Boundary::Open);
+    for (name, schema) in generators() {
+        for (parameter, least, most) in numbers(&schema) {
+            let step = (most - least) * 1e-3;
+            for value in [least - step, most + step] {
+                let generator = parse(name, json!({ parameter.clone(): value })).unwrap();
+                let refused = generator.generate(&lattice, 3).unwrap_err();
+                assert!(refused.to_string().contains(&parameter), "{name}: {refused}");
+            }
+        }
+    }
+    let absent = WhiteNoise { mean_m: f64::NAN, ..Default::default() };
+    assert!(absent.generate(&lattice, 0).is_err());
+}
+
+#[test]
+fn unknown_parameters_are_refused() {
+    for (name, _) in generators() {
+        let refused = parse(name, json!({ "amplitued_m": 1.0 })).map(|_| ()).unwrap_err();
+        assert!(refused.to_string().contains("amplitued_m"), "{name}");
+    }
+}
