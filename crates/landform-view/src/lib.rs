@@ -12,6 +12,7 @@ mod march;
 pub mod perspective;
 pub mod relief;
 mod shade;
+mod smoothing;
 mod surface;
 mod texture;
 mod water;

@@ -106,7 +106,7 @@ impl Light {
         Self {
             bearing_deg: 290.0,
             altitude_deg: 28.0,
-            sun_colour: [255, 224, 184],
+            sun_colour: [255, 232, 200],
             sun: 1.45,
             penumbra_deg: 0.8,
             shadow: 1.0,

@@ -44,6 +44,9 @@ pub struct PerspectiveOptions {
     pub zoom: f64,
     /// Factor of heights.
     pub vertical_exaggeration: f64,
+    /// Standard deviation, in nodes, of a Gaussian that smooths the heights that are drawn: about
+    /// 1 hides the steps of heights that are whole slabs of sand. 0 draws every height as it is.
+    pub smoothing_nodes: f64,
     /// Colours and contour lines.
     pub ground: Ground,
     /// What lights it.
@@ -69,6 +72,7 @@ impl PerspectiveOptions {
             field_of_view_deg: 30.0,
             zoom: 1.0,
             vertical_exaggeration: 1.0,
+            smoothing_nodes: 0.0,
             ground,
             light: Light::low_sun(),
             surroundings: Surroundings::Block { depth_m: None, colour: [150, 122, 92] },
@@ -91,6 +95,7 @@ impl PerspectiveOptions {
         check("zoom", self.zoom, [0.01, 1000.0], "from 0.01 to 1000")?;
         let range = [1e-6, 1e6];
         check("vertical_exaggeration", self.vertical_exaggeration, range, "from 1e-6 to 1e6")?;
+        check("smoothing_nodes", self.smoothing_nodes, [0.0, 100.0], "from 0 to 100 nodes")?;
         check("haze", self.haze, [0.0, 100.0], "from 0 to 100")?;
         match self.surroundings {
             Surroundings::Block { depth_m: Some(depth), .. } => {
@@ -166,8 +171,15 @@ impl<'a> Scene<'a> {
             false => ((size - 1) as f64 / step).floor() as usize + 1,
         };
         let size = [nodes(field.width()), nodes(field.height())];
-        let sampling = Sampling { size, origin: 0.0, step, periodic };
-        Surface::sample(field, sampling, options.vertical_exaggeration)
+        let sampling = Sampling {
+            size,
+            origin: 0.0,
+            step,
+            periodic,
+            smoothing: options.smoothing_nodes,
+            exaggeration: options.vertical_exaggeration,
+        };
+        Surface::sample(field, sampling)
     }
 
     fn new(surface: &'a Surface, options: &'a PerspectiveOptions) -> Self {

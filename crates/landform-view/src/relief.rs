@@ -17,6 +17,9 @@ pub struct ReliefOptions {
     pub light: Light,
     /// Factor of heights for light and shadow, not for colours and contour lines.
     pub vertical_exaggeration: f64,
+    /// Standard deviation, in nodes, of a Gaussian that smooths the heights that are drawn: about
+    /// 1 hides the steps of heights that are whole slabs of sand. 0 draws every height as it is.
+    pub smoothing_nodes: f64,
     /// Width of a node in pixels; below 1 the picture is smaller than the field.
     pub pixels_per_node: f64,
     /// Whether the field continues at its other side.
@@ -32,6 +35,7 @@ impl ReliefOptions {
             ground,
             light: Light::map(),
             vertical_exaggeration: 1.0,
+            smoothing_nodes: 0.0,
             pixels_per_node: 1.0,
             periodic: false,
             water: None,
@@ -44,6 +48,7 @@ impl ReliefOptions {
         let check = ViewError::check_option;
         let range = [1e-6, 1e6];
         check("vertical_exaggeration", self.vertical_exaggeration, range, "from 1e-6 to 1e6")?;
+        check("smoothing_nodes", self.smoothing_nodes, [0.0, 100.0], "from 0 to 100 nodes")?;
         check("pixels_per_node", self.pixels_per_node, [1e-3, 64.0], "from 0.001 to 64")?;
         self.water.as_ref().map_or(Ok(()), Water::check)
     }
@@ -61,8 +66,15 @@ pub fn shaded_relief(field: &HeightField<'_>, options: &ReliefOptions) -> Result
     let step = 1.0 / options.pixels_per_node;
     let size = [field.width(), field.height()].map(|nodes| (nodes as f64 / step).round() as usize);
     let origin = step / 2.0 - 0.5;
-    let sampling = Sampling { size, origin, step, periodic: options.periodic };
-    let surface = Surface::sample(field, sampling, options.vertical_exaggeration)?;
+    let sampling = Sampling {
+        size,
+        origin,
+        step,
+        periodic: options.periodic,
+        smoothing: options.smoothing_nodes,
+        exaggeration: options.vertical_exaggeration,
+    };
+    let surface = Surface::sample(field, sampling)?;
     let mut colours = shade(&surface, &options.ground, &options.light);
     if let Some(water) = &options.water {
         water.cover(&surface, &mut colours);

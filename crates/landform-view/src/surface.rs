@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::smoothing::smooth;
 use crate::{HeightField, ViewError};
 
 /// A fine grid of heights between which pictures interpolate.
@@ -36,23 +37,23 @@ pub(crate) struct Sampling {
     pub(crate) step: f64,
     /// Whether field and surface continue at their other side.
     pub(crate) periodic: bool,
+    /// Standard deviation of the Gaussian that smooths the field first, in nodes of the field.
+    pub(crate) smoothing: f64,
+    /// Vertical exaggeration.
+    pub(crate) exaggeration: f64,
 }
 
 impl Surface {
     /// Resamples a field with Catmull-Rom splines (Catmull and Rom 1974), which pass through
     /// every height and have continuous slopes. Beyond an open edge the field goes on straight.
     /// Where the surface is the coarser one, heights are averaged over its cells first.
-    pub(crate) fn sample(
-        field: &HeightField<'_>,
-        sampling: Sampling,
-        exaggeration: f64,
-    ) -> Result<Self, ViewError> {
+    pub(crate) fn sample(field: &HeightField<'_>, sampling: Sampling) -> Result<Self, ViewError> {
         let [columns, rows] = sampling.size;
         ViewError::check_size("the resampled surface", sampling.size, 2)?;
         let [datum, _] = field.range();
         let block = (sampling.step.floor() as usize).max(1);
         let nodes = [field.width(), field.height()];
-        let coarse = Nodes::average(field, datum, exaggeration, block);
+        let coarse = Nodes::average(field, datum, &sampling, block);
         let stops = |count: usize, nodes: usize| -> Vec<Stop> {
             (0..count).map(|index| Stop::new(&sampling, index, block, nodes)).collect()
         };
@@ -66,7 +67,7 @@ impl Surface {
         });
         let highest = heights.iter().copied().fold(0.0, f32::max);
         let spacing = field.spacing_m() * sampling.step;
-        let periodic = sampling.periodic;
+        let Sampling { periodic, exaggeration, .. } = sampling;
         Ok(Self { columns, rows, spacing, periodic, heights, datum, exaggeration, highest })
     }
 
@@ -122,7 +123,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn average(field: &HeightField<'_>, datum: f64, exaggeration: f64, block: usize) -> Self {
+    fn average(field: &HeightField<'_>, datum: f64, sampling: &Sampling, block: usize) -> Self {
         let (width, height) = (field.width(), field.height());
         let [columns, rows] = [width, height].map(|size| size.div_ceil(block));
         let mean = |column: usize, row: usize| -> f32 {
@@ -131,12 +132,13 @@ impl Nodes {
             let count = (across.len() * down.len()) as f64;
             let lines = down.map(|line| &field.heights()[line * width..][across.clone()]);
             let sum: f64 = lines.flatten().map(|height| height - datum).sum();
-            (exaggeration * sum / count) as f32
+            (sampling.exaggeration * sum / count) as f32
         };
         let mut heights = vec![0.0; columns * rows];
         heights.par_chunks_mut(columns).enumerate().for_each(|(row, line)| {
             line.iter_mut().enumerate().for_each(|(column, height)| *height = mean(column, row));
         });
+        smooth(&mut heights, columns, sampling.smoothing / block as f64, sampling.periodic);
         Self { columns, heights }
     }
 
