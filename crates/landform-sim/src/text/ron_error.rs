@@ -14,32 +14,32 @@ use super::tree::{Entry, Kind, Node, Tree};
 
 /// Values that were expected, in ron's words and ours.
 const VALUES: [(&str, &str); 14] = [
-    ("Expected float", "a number"),
-    ("Expected integer", "a whole number"),
-    ("Expected boolean", "true or false"),
-    ("Expected string", "a string in double quotes"),
-    ("Expected char", "a character in single quotes"),
-    ("Expected byte string", "a byte string"),
-    ("Expected option", "None or Some(...)"),
-    ("Expected unit", "()"),
-    ("Expected opening `[`", "a list in square brackets"),
-    ("Expected opening `{`", "a map in curly brackets"),
-    ("Expected opening `(`", "values in parentheses"),
-    ("Expected identifier", "a name"),
-    ("Unexpected leading underscore in a number", "a number"),
-    ("Integer is out of bounds", "a whole number that fits the range (not negative, if it counts)"),
+    ("expected float", "a number"),
+    ("expected integer", "a whole number"),
+    ("expected boolean", "true or false"),
+    ("expected string", "a string in double quotes"),
+    ("expected char", "a character in single quotes"),
+    ("expected byte string", "a byte string"),
+    ("expected option", "None or Some(...)"),
+    ("expected unit", "()"),
+    ("expected opening `[`", "a list in square brackets"),
+    ("expected opening `{`", "a map in curly brackets"),
+    ("expected opening `(`", "values in parentheses"),
+    ("expected identifier", "a name"),
+    ("unexpected leading underscore in a number", "a number"),
+    ("integer is out of bounds", "a whole number that fits the range (not negative, if it counts)"),
 ];
 
 /// Marks between values that were expected, in ron's words and ours.
 const MARKS: [(&str, &str); 8] = [
-    ("Expected comma", "a comma or the closing bracket"),
-    ("Expected colon", "a colon after the name of a field"),
-    ("Expected closing `]`", "`]`"),
-    ("Expected closing `)`", "`)`"),
-    ("Expected closing `}`", "`}`"),
-    ("Expected end of string", "a closing quote"),
-    ("Unclosed block comment", "the end of the comment, `*/`"),
-    ("Unexpected end of RON", "more text"),
+    ("expected comma", "a comma or the closing bracket"),
+    ("expected colon", "a colon after the name of a field"),
+    ("expected closing `]`", "`]`"),
+    ("expected closing `)`", "`)`"),
+    ("expected closing `}`", "`}`"),
+    ("expected end of string", "a closing quote"),
+    ("unclosed block comment", "the end of the comment, `*/`"),
+    ("unexpected end of RON", "more text"),
 ];
 
 /// The message for an error of `ron` about [`Source::text`], with a place.
@@ -54,13 +54,14 @@ pub fn ron_diagnostic(source: &Source, error: &SpannedError) -> Diagnostic {
     let (start, at) = (byte(error.span.start), byte(error.span.end));
     let refused = Refused {
         tree: Tree::parse(text),
-        words: error.code.to_string(),
+        words: message_of(&error.code),
         span: Span::new(start.min(at), at),
     };
     refused.diagnostic()
 }
 
-/// The words for an error without a place.
+/// The words for an error without a place, from ron or from whoever reads with it. Those of
+/// ron begin with a small letter here.
 pub(super) fn message_of(code: &Error) -> String {
     let words = code.to_string();
     let mut letters = words.chars();
@@ -82,13 +83,13 @@ impl Refused<'_> {
         let meant = |table: &[(&str, &'static str)]| {
             table.iter().find(|(theirs, _)| *theirs == words).map(|&(_, ours)| ours)
         };
-        if starts(&["Unexpected missing field", "missing field"]) {
+        if starts(&["unexpected missing field", "missing field"]) {
             self.missing_field()
-        } else if starts(&["Unexpected field", "unknown field"]) {
+        } else if starts(&["unexpected field", "unknown field"]) {
             self.unknown_name("field")
-        } else if starts(&["Unexpected variant", "Unexpected enum variant", "unknown variant"]) {
+        } else if starts(&["unexpected variant", "unexpected enum variant", "unknown variant"]) {
             self.unknown_name("name")
-        } else if starts(&["Unexpected duplicate field", "duplicate field"]) {
+        } else if starts(&["unexpected duplicate field", "duplicate field"]) {
             let field = quoted_names(words).next().unwrap_or_default();
             Diagnostic::new(format!("the field {field:?} is given twice")).at(self.span)
         } else if let Some(ours) = meant(&MARKS) {
@@ -102,8 +103,9 @@ impl Refused<'_> {
 
     fn other(&self) -> Diagnostic {
         let words = self.words.as_str();
-        let found = words.strip_prefix("Expected ").and_then(|rest| rest.split_once(" but found "));
-        if let Some((struct_name, found)) = found.filter(|_| words.starts_with("Expected struct ")) {
+        let found = words.strip_prefix("expected ").and_then(|rest| rest.split_once(" but found "));
+        if let Some((struct_name, found)) = found.filter(|_| words.starts_with("expected struct "))
+        {
             let (name, found) = (quoted_names(struct_name).next(), quoted_names(found).next());
             let name = name.unwrap_or_default();
             return Diagnostic::new(format!("unknown name {:?}", found.unwrap_or_default()))
@@ -111,32 +113,55 @@ impl Refused<'_> {
                 .expected(format!("{name}, or parentheses without a name"));
         }
         if let Some((expected, found)) = found {
-            let found = found.strip_suffix(" instead").unwrap_or(found);
-            return Diagnostic::new(format!("{} has {found}", self.label())).at(self.place()).expected(expected);
+            return self.found_instead(expected, found.strip_suffix(" instead").unwrap_or(found));
         }
-        if let Some(name) = words.strip_prefix("Expected opening `(` for struct ") {
+        if let Some(name) = words.strip_prefix("expected opening `(` for struct ") {
             let name = quoted_names(name).next().unwrap_or_default();
             return self.wrong_value(&format!("the fields of {name} in parentheses"));
         }
         match words {
-            "Non-whitespace trailing characters" => {
+            "non-whitespace trailing characters" => {
                 let end = self.token().map_or(self.span.end, |token| token.span.end);
                 Diagnostic::new("there is more text after the end of the scenario")
                     .at(Span::new(self.span.end, end))
-                    .help("look for a closing bracket too many, or parentheses missing around it all")
+                    .help(
+                        "look for a closing bracket too many, or parentheses missing around it all",
+                    )
             }
-            words if words.starts_with("Exceeded recursion limit") => {
-                Diagnostic::new("brackets are nested too deep").at(self.span).expected("at most 128 levels")
+            words if words.starts_with("exceeded recursion limit") => {
+                Diagnostic::new("brackets are nested too deep")
+                    .at(self.span)
+                    .expected("at most 128 levels")
+            }
+            words if words.starts_with("found invalid std identifier") => {
+                let name = self.token().map_or(self.span, |token| token.span);
+                Diagnostic::new("this is not the name of a field")
+                    .at(name)
+                    .expected("letters, digits and underscores")
             }
             _ => self.in_its_own_words(),
         }
+    }
+
+    /// A value of the wrong length or of a kind that its reader refused.
+    fn found_instead(&self, expected: &str, found: &str) -> Diagnostic {
+        let (label, span) = match self.closed_here() {
+            Some((entry, node)) => (label_of(entry, node), node.span),
+            None => (Some(self.label()), self.place()),
+        };
+        let label = label.unwrap_or_else(|| "the value".to_owned());
+        Diagnostic::new(format!("{label}: found {found}")).at(span).expected(expected)
     }
 
     /// The error as it was written, taken apart again if it was a diagnostic.
     fn in_its_own_words(&self) -> Diagnostic {
         let (rest, help) = cut_off(&self.words, "; help: ");
         let (message, expected) = cut_off(rest, "; expected: ");
-        let span = if self.span.is_empty() { self.place() } else { self.span };
+        let span = match self.closed_here() {
+            Some((_, node)) => node.span,
+            None if self.span.is_empty() => self.place(),
+            None => self.span,
+        };
         Diagnostic { message: message.to_owned(), span: Some(span), expected, help }
     }
 
@@ -162,31 +187,38 @@ impl Refused<'_> {
     fn missing_field(&self) -> Diagnostic {
         let mut names = quoted_names(&self.words);
         let field = names.next().unwrap_or_default();
-        let closes = |node: &Node| {
-            node.close.is_some_and(|close| close.start == self.span.end || close.end == self.span.end)
-        };
-        let owner = self.entries().filter(|(_, node)| closes(node)).last();
+        let owner = self.closed_here();
         let (label, span) = match owner {
-            Some((key, node)) => {
-                let name = node.name.as_ref().or(key.and_then(|entry| entry.key.as_ref()));
-                (name.map(|name| name.name), name.map(|name| name.span).or(node.open))
+            Some((entry, node)) => {
+                let key = entry.and_then(|entry| entry.key.as_ref());
+                let span = node.name.as_ref().or(key).map(|key| key.span).or(node.open);
+                (label_of(entry, node), span)
             }
             None => (None, None),
         };
-        let label = label.or(names.next()).unwrap_or("the value");
+        let label = label.or(names.next().map(str::to_owned));
+        let label = label.unwrap_or_else(|| "the value".to_owned());
         Diagnostic::new(format!("{label} lacks the field {field:?}"))
             .at(span.unwrap_or(self.span))
             .expected(format!("{field}: ..."))
             .help(format!("add {field} between the parentheses of {label}"))
     }
 
+    /// The value in brackets whose end is the place of the error, with its entry.
+    fn closed_here(&self) -> Option<(Option<&Entry<'_>>, &Node<'_>)> {
+        let at = self.span.end;
+        let closes = |close: Span| close.start == at || close.end == at;
+        self.entries().find(|(_, node)| node.close.is_some_and(closes))
+    }
+
     fn wrong_value(&self, expected: &str) -> Diagnostic {
         let span = self.place();
-        let found = match span.of(self.tree.text) {
-            "" => "missing".to_owned(),
-            found => first_letters(found),
+        let label = self.label();
+        let message = match span.of(self.tree.text) {
+            "" => format!("{label} is missing"),
+            found => format!("{label} cannot be {}", first_letters(found)),
         };
-        Diagnostic::new(format!("{} cannot be {found}", self.label())).at(span).expected(expected)
+        Diagnostic::new(message).at(span).expected(expected)
     }
 
     fn wrong_mark(&self, expected: &str) -> Diagnostic {
@@ -202,7 +234,7 @@ impl Refused<'_> {
         }
         match token {
             Some(token) if token.span.start < self.span.end && token.symbol == Symbol::Number => {
-                self.wrong_value("a whole number, or one written in another way")
+                self.wrong_value("a whole number")
             }
             Some(token) => {
                 let found = first_letters(token.span.of(self.tree.text));
@@ -241,21 +273,29 @@ impl Refused<'_> {
     /// The value at the place of the error: the whole of a small one, the start of others.
     fn place(&self) -> Span {
         let at = self.span.end;
-        let starts = self.entries().map(|(_, node)| node).filter(|node| node.span.start == at).last();
+        let starts =
+            self.entries().map(|(_, node)| node).filter(|node| node.span.start == at).last();
         match starts.or_else(|| self.tree.at(at)) {
             Some(node) if node.span.start == at || node.open.is_none() => node.span,
-            _ => self.token().filter(|token| token.span.start == at).map_or(self.span, |token| token.span),
+            _ => self
+                .token()
+                .filter(|token| token.span.start == at)
+                .map_or(self.span, |token| token.span),
         }
     }
 
     /// What the value at the place of the error belongs to, for the start of a message.
     fn label(&self) -> String {
-        let holds = |node: &Node| node.span.start <= self.span.end && self.span.end <= node.span.end;
+        let holds =
+            |node: &Node| node.span.start <= self.span.end && self.span.end <= node.span.end;
         let key = |entry: &Entry| entry.key.as_ref().map(|key| key.name.to_owned());
         let around = self.entries().filter(|(_, node)| holds(node));
         let named = around.filter_map(|(entry, node)| Some((key(entry?)?, node))).last();
         match named {
-            Some((key, node)) if matches!(node.kind, Kind::List | Kind::Tuple | Kind::Map) && node.span.start != self.span.end => {
+            Some((key, node))
+                if matches!(node.kind, Kind::List | Kind::Tuple | Kind::Map)
+                    && node.span.start != self.span.end =>
+            {
                 format!("a value in {key}")
             }
             Some((key, _)) => key,
@@ -267,8 +307,16 @@ impl Refused<'_> {
     fn entries(&self) -> impl Iterator<Item = (Option<&Entry<'_>>, &Node<'_>)> {
         let root = self.tree.root.as_ref();
         let below = root.into_iter().flat_map(Node::walk).flat_map(|node| &node.entries);
-        root.map(|root| (None, root)).into_iter().chain(below.map(|entry| (Some(entry), &entry.value)))
+        root.map(|root| (None, root))
+            .into_iter()
+            .chain(below.map(|entry| (Some(entry), &entry.value)))
     }
+}
+
+/// What a value is called in a message: its own name or that of its field.
+fn label_of(entry: Option<&Entry>, node: &Node) -> Option<String> {
+    let key = entry.and_then(|entry| entry.key.as_ref());
+    node.name.as_ref().or(key).map(|key| key.name.to_owned())
 }
 
 /// The names between backticks.
