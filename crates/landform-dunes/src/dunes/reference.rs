@@ -1,0 +1,1 @@
+//! The dune model word for word: slow, serial and short.

@@ -1,0 +1,296 @@
+//! Transport: the wind lifts slabs, and they hop downwind until they stay (Werner 1995).
+//!
+//! In a sub-step every polled node that lies in the wind and holds a slab loses one. The slab
+//! hops over the same distance until it lands where it stays: surely in shelter, with
+//! probability `deposit_on_sand` or `deposit_on_bare` in the wind. All slabs of a sub-step see the ground as
+//! it was before, so they fly in any order on any number of threads; where they landed is then
+//! added in node order. A quarter of the nodes acts at a time, which is close enough to
+//! polling one by one (tested against the module `reference`).
+//!
+//! With no shelter the number of hops is geometric with mean 1/p, and the flux is the length of a hop over
+//! p slabs a poll (Nield and Baas 2008).
+
+use landform_sim::random::RandomStream;
+use rayon::prelude::*;
+
+use super::TransportSettings;
+use super::avalanche::Layers;
+use super::plane::Plane;
+
+/// Sub-steps of a tick: each polls the nodes whose random number is its own.
+pub const SUB_STEPS: u32 = 4;
+
+/// Rows that one task lifts slabs from.
+const BAND: usize = 16;
+
+/// Bit of a node's ground that says it holds at least a slab of sand.
+const SAND: u8 = 1;
+
+/// Bit of a node's ground that says it is sheltered.
+const SHELTERED: u8 = 2;
+
+/// What transport did in a tick or a sub-step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TransportCounts {
+    /// Slabs that the wind lifted.
+    pub lifts: u64,
+    /// Hops of all slabs together.
+    pub hops: u64,
+    /// Slabs that had to stay because they had hopped too often.
+    pub tired: u64,
+    /// Slabs that entered over open borders.
+    pub fed: u64,
+    /// Slabs that left over the west, east, north and south border.
+    pub left: [u64; 4],
+}
+
+impl TransportCounts {
+    /// Adds the counts of another sub-step.
+    pub fn add(&mut self, other: &Self) {
+        self.lifts += other.lifts;
+        self.hops += other.hops;
+        self.tired += other.tired;
+        self.fed += other.fed;
+        for (left, more) in self.left.iter_mut().zip(other.left) {
+            *left += more;
+        }
+    }
+}
+
+/// The random decisions of transport.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chances {
+    /// Which sub-step polls a node.
+    poll: RandomStream,
+    /// Whether a slab stays where it lands.
+    pub land: RandomStream,
+}
+
+impl Chances {
+    /// The decisions of a run's seed.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            poll: RandomStream::new(seed, "dunes poll"),
+            land: RandomStream::new(seed, "dunes land"),
+        }
+    }
+
+    /// Sub-steps in which 64 nodes of a row are polled, two bits each.
+    #[inline]
+    pub fn polls(&self, iteration: u64, block: usize) -> [u32; 4] {
+        self.poll.block(iteration, block, 0)
+    }
+}
+
+/// How slabs fly in one sub-step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flight {
+    plane: Plane,
+    /// Columns and rows of a hop.
+    hop: [isize; 2],
+    /// Random words below this stay: on bare ground, on sand, and twice in shelter.
+    stays: [u64; 4],
+    most_hops: u32,
+}
+
+/// Where a flight ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Landing {
+    /// On a node.
+    Node(usize),
+    /// Beyond a border: west, east, north or south.
+    Left(usize),
+}
+
+impl Flight {
+    /// Flights by `hop` under these settings.
+    pub fn new(plane: Plane, hop: [isize; 2], settings: &TransportSettings) -> Self {
+        let below = |chance: f64| (chance * 4_294_967_296.0) as u64;
+        let [bare, sand] = [below(settings.deposit_on_bare), below(settings.deposit_on_sand)];
+        let always = 1 << 32;
+        Self { plane, hop, stays: [bare, sand, always, always], most_hops: settings.most_hops }
+    }
+
+    /// Columns and rows that a hop crosses.
+    pub fn reach(&self) -> [usize; 2] {
+        self.hop.map(isize::unsigned_abs)
+    }
+
+    /// Lets a slab from outside come down on `place`, where it stays or hops on.
+    pub fn enter(
+        &self,
+        place: [usize; 2],
+        ground: &[u8],
+        key: (RandomStream, u64, usize),
+        counts: &mut TransportCounts,
+    ) -> Landing {
+        let (stream, iteration, slab) = key;
+        let node = place[0] + self.plane.width * place[1];
+        // The last block of words: no flight hops that often.
+        let word = stream.block(iteration, slab, u32::MAX)[0];
+        if u64::from(word) < self.stays[usize::from(ground[node])] {
+            return Landing::Node(node);
+        }
+        self.fly(place, ground, key, counts)
+    }
+
+    /// The node or border that a hop leads to.
+    #[inline]
+    fn hop(&self, [column, row]: [usize; 2]) -> Result<[usize; 2], usize> {
+        let [columns, rows] = self.hop;
+        let column = self.plane.column(column, columns).ok_or(usize::from(columns > 0))?;
+        let row = self.plane.row(row, rows).ok_or(2 + usize::from(rows > 0))?;
+        Ok([column, row])
+    }
+
+    /// Flies a slab from `place`, drawing from the block of random words of `key`.
+    #[inline]
+    pub fn fly(
+        &self,
+        mut place: [usize; 2],
+        ground: &[u8],
+        key: (RandomStream, u64, usize),
+        counts: &mut TransportCounts,
+    ) -> Landing {
+        let (stream, iteration, node) = key;
+        let mut words = [0; 4];
+        for hop in 0..self.most_hops {
+            counts.hops += 1;
+            place = match self.hop(place) {
+                Ok(place) => place,
+                Err(border) => return Landing::Left(border),
+            };
+            if hop % 4 == 0 {
+                words = stream.block(iteration, node, hop / 4);
+            }
+            let landed = place[0] + self.plane.width * place[1];
+            let stays = self.stays[usize::from(ground[landed])];
+            if u64::from(words[hop as usize % 4]) < stays {
+                return Landing::Node(landed);
+            }
+        }
+        counts.tired += 1;
+        Landing::Node(place[0] + self.plane.width * place[1])
+    }
+}
+
+/// Where the slabs of one band landed: scratch.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Band {
+    landings: Vec<u32>,
+    counts: TransportCounts,
+}
+
+/// The sub-step that is under way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SubStep {
+    /// Tick that it belongs to.
+    pub iteration: u64,
+    /// Number within the tick.
+    pub number: u32,
+    /// Height of a slab in metres.
+    pub slab: f64,
+    /// Whether slabs are lifted from sheltered nodes too.
+    pub lift_in_shelter: bool,
+}
+
+/// Says of every node what a slab meets that lands there: [`SAND`] and [`SHELTERED`] or not.
+pub(super) fn survey(sheltered: &[bool], sand: &[f64], slab: f64, ground: &mut [u8]) {
+    const CHUNK: usize = 1 << 14;
+    let states = sheltered.par_chunks(CHUNK).zip(sand.par_chunks(CHUNK));
+    ground.par_chunks_mut(CHUNK).zip(states).for_each(|(ground, (sheltered, sand))| {
+        for ((ground, &sheltered), &sand) in ground.iter_mut().zip(sheltered).zip(sand) {
+            *ground = SAND * u8::from(sand >= slab) | SHELTERED * u8::from(sheltered);
+        }
+    });
+}
+
+/// Lifts and flies the slabs of a sub-step, and puts them down.
+pub(super) fn transport(
+    step: &SubStep,
+    flight: &Flight,
+    chances: &Chances,
+    ground: &[u8],
+    layers: &mut Layers<'_>,
+    bands: &mut Vec<Band>,
+) -> TransportCounts {
+    let Plane { width, height, .. } = flight.plane;
+    bands.resize_with(height.div_ceil(BAND), Band::default);
+    let nodes = BAND * width;
+    layers
+        .sand
+        .par_chunks_mut(nodes)
+        .zip(layers.surface.par_chunks_mut(nodes))
+        .zip(layers.bed.par_chunks(nodes))
+        .zip(&mut *bands)
+        .enumerate()
+        .for_each(|(number, (((sand, surface), bed), band))| {
+            let mut layers = Layers { bed, sand, surface };
+            lift(step, flight, chances, ground, number * BAND, &mut layers, band);
+        });
+    let mut counts = TransportCounts::default();
+    for band in bands {
+        counts.add(&band.counts);
+        for &node in &band.landings {
+            put_down(layers, node as usize, step.slab);
+        }
+    }
+    counts
+}
+
+/// Adds a slab to a node.
+pub(super) fn put_down(layers: &mut Layers<'_>, node: usize, slab: f64) {
+    layers.sand[node] += slab;
+    layers.surface[node] = layers.bed[node] + layers.sand[node];
+}
+
+/// Lifts and flies the slabs of the rows from `first` on.
+fn lift(
+    step: &SubStep,
+    flight: &Flight,
+    chances: &Chances,
+    ground: &[u8],
+    first: usize,
+    layers: &mut Layers<'_>,
+    band: &mut Band,
+) {
+    let width = flight.plane.width;
+    let blocks = width.div_ceil(64);
+    band.landings.clear();
+    band.counts = TransportCounts::default();
+    let sheltered_sand = if step.lift_in_shelter { SAND | SHELTERED } else { SAND };
+    let rows = layers.sand.len() / width;
+    for row in first..first + rows {
+        for block in 0..blocks {
+            let words = chances.polls(step.iteration, row * blocks + block);
+            for (part, word) in words.into_iter().enumerate() {
+                let mut polled = matches(word, step.number);
+                while polled != 0 {
+                    let column = block * 64 + part * 16 + polled.trailing_zeros() as usize / 2;
+                    polled &= polled - 1;
+                    if column >= width {
+                        break;
+                    }
+                    let node = row * width + column;
+                    if ground[node] != SAND && ground[node] != sheltered_sand {
+                        continue;
+                    }
+                    band.counts.lifts += 1;
+                    put_down(layers, node - first * width, -step.slab);
+                    let key = (chances.land, step.iteration, node);
+                    match flight.fly([column, row], ground, key, &mut band.counts) {
+                        Landing::Node(node) => band.landings.push(node as u32),
+                        Landing::Left(border) => band.counts.left[border] += 1,
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The even bits of `word` whose pair of bits equals `number`.
+#[inline]
+pub(super) fn matches(word: u32, number: u32) -> u32 {
+    let differs = word ^ (number * 0x5555_5555);
+    !(differs | differs >> 1) & 0x5555_5555
+}
