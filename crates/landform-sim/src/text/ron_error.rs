@@ -69,6 +69,9 @@ pub(super) fn message_of(code: &Error) -> String {
     first.chain(letters).collect()
 }
 
+#[cfg(test)]
+mod tests;
+
 /// An error with what is needed to explain it.
 struct Refused<'a> {
     tree: Tree<'a>,
@@ -104,43 +107,44 @@ impl Refused<'_> {
     fn other(&self) -> Diagnostic {
         let words = self.words.as_str();
         let found = words.strip_prefix("expected ").and_then(|rest| rest.split_once(" but found "));
-        if let Some((struct_name, found)) = found.filter(|_| words.starts_with("expected struct "))
-        {
-            let (name, found) = (quoted_names(struct_name).next(), quoted_names(found).next());
-            let name = name.unwrap_or_default();
-            return Diagnostic::new(format!("unknown name {:?}", found.unwrap_or_default()))
-                .at(self.span)
-                .expected(format!("{name}, or parentheses without a name"));
-        }
         if let Some((expected, found)) = found {
-            return self.found_instead(expected, found.strip_suffix(" instead").unwrap_or(found));
+            return match expected.strip_prefix("struct ") {
+                Some(name) if found.starts_with('`') => self.other_struct(name, found),
+                _ => self.found_instead(expected, found.strip_suffix(" instead").unwrap_or(found)),
+            };
         }
         if let Some(name) = words.strip_prefix("expected opening `(` for struct ") {
             let name = quoted_names(name).next().unwrap_or_default();
             return self.wrong_value(&format!("the fields of {name} in parentheses"));
         }
+        let token = self.token().map_or(self.span, |token| token.span);
         match words {
             "non-whitespace trailing characters" => {
-                let end = self.token().map_or(self.span.end, |token| token.span.end);
-                Diagnostic::new("there is more text after the end of the scenario")
-                    .at(Span::new(self.span.end, end))
-                    .help(
-                        "look for a closing bracket too many, or parentheses missing around it all",
-                    )
+                Diagnostic::new("there is more text after the end of the scenario").at(token).help(
+                    "look for a closing bracket too many, or parentheses missing around it all",
+                )
             }
-            words if words.starts_with("exceeded recursion limit") => {
+            _ if words.starts_with("exceeded recursion limit") => {
                 Diagnostic::new("brackets are nested too deep")
-                    .at(self.span)
+                    .at(token)
                     .expected("at most 128 levels")
             }
-            words if words.starts_with("found invalid std identifier") => {
-                let name = self.token().map_or(self.span, |token| token.span);
+            _ if words.starts_with("found invalid std identifier") => {
                 Diagnostic::new("this is not the name of a field")
-                    .at(name)
+                    .at(token)
                     .expected("letters, digits and underscores")
             }
             _ => self.in_its_own_words(),
         }
+    }
+
+    fn other_struct(&self, expected: &str, found: &str) -> Diagnostic {
+        let (expected, found) = (quoted_names(expected).next(), quoted_names(found).next());
+        let (expected, found) = (expected.unwrap_or_default(), found.unwrap_or_default());
+        Diagnostic::new(format!("unknown name {found:?}"))
+            .at(self.span)
+            .expected(format!("{expected}, or parentheses without a name"))
+            .did_you_mean(nearest(found, [expected]))
     }
 
     /// A value of the wrong length or of a kind that its reader refused.
