@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use crate::ViewError;
@@ -26,10 +26,18 @@ impl AtomicFile {
         Ok((guard, BufWriter::new(file)))
     }
 
-    /// Puts the finished file in its place.
-    pub(crate) fn finish(mut self, mut writer: BufWriter<File>) -> Result<(), ViewError> {
-        writer.flush().map_err(|source| write_error(&self.target, source))?;
-        drop(writer);
+    /// Where the file is until it is finished.
+    pub(crate) fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
+    /// The file that was asked for.
+    pub(crate) fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Puts the file, which must be flushed, in its place.
+    pub(crate) fn finish(mut self) -> Result<(), ViewError> {
         fs::rename(&self.temporary, &self.target)
             .map_err(|source| write_error(&self.target, source))?;
         self.finished = true;

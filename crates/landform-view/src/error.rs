@@ -104,13 +104,11 @@ pub enum ViewError {
         /// Width and height of the first frame.
         expected: [usize; 2],
     },
-    /// An animation was finished with another number of frames than announced.
-    #[error("the animation has {found} frames and {expected} were announced; add each frame once")]
-    FrameCount {
-        /// Number of frames added.
-        found: usize,
-        /// Number of frames announced.
-        expected: usize,
+    /// An animation was finished without a frame.
+    #[error("`{path}` would be an animation without frames; add one before finishing it")]
+    NoFrames {
+        /// File asked for.
+        path: PathBuf,
     },
     /// A file cannot be written or read.
     #[error("cannot {action} `{path}`: {source}; check that the folder exists and may be written")]

@@ -62,14 +62,14 @@ impl Image {
     /// that PNG forbids (empty, above 79 bytes or not Latin-1).
     pub fn write_png(&self, path: &Path, text: &[(&str, &str)]) -> Result<(), ViewError> {
         self.check()?;
-        let (guard, mut file) = AtomicFile::create(path)?;
+        let (guard, file) = AtomicFile::create(path)?;
         let problem = |error: png::EncodingError| ViewError::format(path, error);
-        let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
+        let mut encoder = png::Encoder::new(file, self.width as u32, self.height as u32);
         configure(&mut encoder, text).map_err(problem)?;
         let mut writer = encoder.write_header().map_err(problem)?;
         writer.write_image_data(self.rgb.as_flattened()).map_err(problem)?;
         writer.finish().map_err(problem)?;
-        guard.finish(file)
+        guard.finish()
     }
 
     /// Reads an 8-bit colour PNG file and its text entries.

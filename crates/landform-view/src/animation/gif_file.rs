@@ -1,0 +1,71 @@
+//! Animations as GIF.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use gif::{AnyExtension, Encoder, Frame, Repeat};
+
+use crate::atomic_file::{AtomicFile, write_error};
+use crate::{Image, ViewError};
+
+/// Thoroughness of the palette search, from 1 (slow) to 30 (fast).
+const PALETTE_SPEED: i32 = 10;
+
+/// Label of a comment block (GIF89a specification, section 24).
+const COMMENT: AnyExtension = AnyExtension(0xFE);
+
+/// A GIF file that is being written.
+pub(super) struct GifFile {
+    guard: AtomicFile,
+    encoder: Encoder<BufWriter<File>>,
+    size: [u16; 2],
+    delay: u16,
+}
+
+impl GifFile {
+    pub(super) fn create(
+        path: &Path,
+        size: [usize; 2],
+        delay_ms: u32,
+        text: &[(&str, &str)],
+    ) -> Result<Self, ViewError> {
+        let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
+            let (what, [width, height]) = ("a GIF frame", size);
+            return Err(ViewError::TooLarge { what, width, height });
+        };
+        let (guard, file) = AtomicFile::create(path)?;
+        let problem = |error| ViewError::format(path, error);
+        let mut encoder = Encoder::new(file, width, height, &[]).map_err(problem)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(problem)?;
+        for (keyword, entry) in text {
+            let comment = format!("{keyword}: {entry}");
+            let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
+            encoder.write_raw_extension(COMMENT, &blocks).map_err(problem)?;
+        }
+        let delay = ((delay_ms + 5) / 10) as u16;
+        Ok(Self { guard, encoder, size: [width, height], delay })
+    }
+
+    pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
+        let [width, height] = self.size;
+        let pixels = image.rgb.as_flattened();
+        let mut frame = Frame::from_rgb_speed(width, height, pixels, PALETTE_SPEED);
+        frame.delay = self.delay;
+        let problem = |error| ViewError::format(self.guard.target(), error);
+        self.encoder.write_frame(&frame).map_err(problem)
+    }
+
+    pub(super) fn finish(self) -> Result<(), ViewError> {
+        let problem = |error| ViewError::format(self.guard.target(), error);
+        let mut file = self.encoder.into_inner().map_err(problem)?;
+        file.flush().map_err(|error| write_error(self.guard.target(), error))?;
+        self.guard.finish()
+    }
+}
+
+impl std::fmt::Debug for GifFile {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("GifFile").field("guard", &self.guard).finish_non_exhaustive()
+    }
+}
