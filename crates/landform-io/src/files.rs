@@ -86,11 +86,11 @@ pub fn write_raster(
 }
 
 /// The extension in lower case, without the dot.
-fn extension(path: &Path) -> String {
+pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|text| text.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-fn unknown(path: &Path, extension: &str, known: &'static str) -> IoError {
+pub(crate) fn unknown(path: &Path, extension: &str, known: &'static str) -> IoError {
     IoError::UnknownFormat { path: path.into(), extension: extension.into(), known }
 }
 

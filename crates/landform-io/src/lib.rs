@@ -7,6 +7,7 @@ mod files;
 pub mod georeference;
 pub mod geotiff;
 mod limits;
+pub mod mesh;
 pub mod metadata;
 pub mod npy;
 pub mod png16;
@@ -24,6 +25,7 @@ pub use georeference::{
     CoordinateKind, CoordinateSystem, Georeference, Registration, SpacingError,
 };
 pub use limits::ReadLimits;
+pub use mesh::{Mesh, write_mesh};
 pub use metadata::{Encoding, Metadata, Sidecar};
 pub use raster::Raster;
 pub use sample::SampleType;

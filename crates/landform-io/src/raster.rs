@@ -109,24 +109,4 @@ impl Raster {
     pub(crate) fn place(&self, cell: usize) -> Place {
         Place::Cell(cell % self.width.max(1), cell / self.width.max(1))
     }
-
-    /// A mark for missing cells that no value bears: the file's own, else the first free
-    /// candidate; `None` when nothing is missing and the file had none.
-    pub(crate) fn no_data_mark(&self, candidates: &[f64]) -> Result<Option<f64>, Fault> {
-        let missing = self.values.iter().any(|value| value.is_nan());
-        if !missing && self.no_data.is_none() {
-            return Ok(None);
-        }
-        let own = self.no_data.filter(|mark| mark.is_finite());
-        let taken = |mark: &f64| self.values.contains(mark);
-        let free = own.into_iter().chain(candidates.iter().copied()).find(|mark| !taken(mark));
-        match (free, missing) {
-            (None, true) => Err(Fault::new(
-                format!("all of {candidates:?} occur as values, so none can mark missing cells"),
-                "a free number for missing cells",
-                "set `no_data` to a number that does not occur",
-            )),
-            (mark, _) => Ok(mark),
-        }
-    }
 }

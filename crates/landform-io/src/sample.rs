@@ -40,17 +40,37 @@ impl SampleType {
         }
     }
 
-    /// Least and greatest number of a whole-number type; `None` for floating point.
-    pub fn integer_range(self) -> Option<[f64; 2]> {
+    /// Least and greatest number that can be stored.
+    pub fn range(self) -> [f64; 2] {
         match self {
-            Self::F64 | Self::F32 => None,
-            Self::I16 => Some([f64::from(i16::MIN), f64::from(i16::MAX)]),
-            Self::I32 => Some([f64::from(i32::MIN), f64::from(i32::MAX)]),
-            Self::U8 => Some([0.0, 255.0]),
+            Self::F64 => [-f64::MAX, f64::MAX],
+            Self::F32 => [f64::from(f32::MIN), f64::from(f32::MAX)],
+            Self::I16 => [f64::from(i16::MIN), f64::from(i16::MAX)],
+            Self::I32 => [f64::from(i32::MIN), f64::from(i32::MAX)],
+            Self::U8 => [0.0, 255.0],
         }
     }
 
-    /// Writes `values`, little endian; whole-number types round to the nearest.
+    /// The storable number nearest to a value within the range.
+    pub(crate) fn nearest(self, value: f64) -> f64 {
+        match self {
+            Self::F64 => value,
+            Self::F32 => f64::from(value as f32),
+            Self::I16 | Self::I32 | Self::U8 => value.round(),
+        }
+    }
+
+    /// Numbers that may mark missing cells, the best first.
+    pub(crate) fn marks(self) -> &'static [f64] {
+        match self {
+            Self::F64 | Self::F32 => &[f64::NAN],
+            Self::I16 => &[-32768.0, -9999.0, 32767.0],
+            Self::I32 => &[-2147483648.0, -9999.0, 2147483647.0],
+            Self::U8 => &[255.0, 0.0],
+        }
+    }
+
+    /// Writes numbers that [`nearest`](Self::nearest) has made storable, little endian.
     pub(crate) fn write(self, values: &[f64], writer: &mut impl Write) -> io::Result<()> {
         let mut bytes = Vec::with_capacity(self.size() * values.len().min(BLOCK));
         for block in values.chunks(BLOCK) {
@@ -59,12 +79,12 @@ impl SampleType {
                 Self::F64 => block.iter().for_each(|v| bytes.extend(v.to_le_bytes())),
                 Self::F32 => block.iter().for_each(|v| bytes.extend((*v as f32).to_le_bytes())),
                 Self::I16 => {
-                    block.iter().for_each(|v| bytes.extend((v.round() as i16).to_le_bytes()));
+                    block.iter().for_each(|v| bytes.extend((*v as i16).to_le_bytes()));
                 }
                 Self::I32 => {
-                    block.iter().for_each(|v| bytes.extend((v.round() as i32).to_le_bytes()));
+                    block.iter().for_each(|v| bytes.extend((*v as i32).to_le_bytes()));
                 }
-                Self::U8 => bytes.extend(block.iter().map(|v| v.round() as u8)),
+                Self::U8 => bytes.extend(block.iter().map(|v| *v as u8)),
             }
             writer.write_all(&bytes)?;
         }

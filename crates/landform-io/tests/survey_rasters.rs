@@ -38,7 +38,10 @@ fn sizes_ranges_and_systems_are_those_of_the_notes() {
         let raster = read_raster(folder.join(name)).unwrap();
         assert_eq!(raster.size(), [width, height], "{name}");
         let [low, high] = raster.range().unwrap();
-        assert!((low - least).abs() <= 0.5 && (high - greatest).abs() <= 0.5, "{name} {low} {high}");
+        assert!(
+            (low - least).abs() <= 0.5 && (high - greatest).abs() <= 0.5,
+            "{name} {low} {high}"
+        );
         assert_eq!(raster.missing_count(), 0, "{name}");
         let place = raster.georeference.unwrap();
         assert_eq!(place.coordinate_system.epsg, Some(epsg), "{name}");

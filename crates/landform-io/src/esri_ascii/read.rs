@@ -28,7 +28,7 @@ pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
     let header = header::read(&mut tokens).map_err(explain)?;
     let cells = limits.cells(path, &[header.columns, header.rows])?;
     // A cell takes a digit and a separator, so a short file is known before memory is taken.
-    if (length + 1) / 2 < cells as u64 {
+    if length.div_ceil(2) < cells as u64 {
         let problem = format!("the file has {length} bytes");
         let expected = format!("at least {} bytes for {cells} cells", 2 * cells as u64 - 1);
         return Err(cut_off(problem, expected, tokens.line()).reading(path));

@@ -1,11 +1,12 @@
 //! Grids as text.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::path::Path;
 
+use crate::stored::stored;
 use crate::{
-    Encoding, Fault, Georeference, IfExists, IoError, Metadata, Raster, Registration, SampleType,
-    Sidecar,
+    Fault, Georeference, IfExists, IoError, Metadata, Raster, Registration, SampleType, Sidecar,
 };
 
 /// Writes a grid with every digit that its values need to be read back bit for bit, and a
@@ -21,23 +22,26 @@ pub fn write(
     if_exists: IfExists,
 ) -> Result<(), IoError> {
     let fault = |fault: Fault| fault.writing(path);
-    let stored = crate::stored::stored(raster, SampleType::F64, [1.0, 0.0]).map_err(fault)?;
     let header = header(raster).map_err(fault)?;
-    let mark = raster.no_data_mark(&[-9999.0, -99999.0, -1e30]).map_err(fault)?;
+    let stored = stored(raster, SampleType::F64, [1.0, 0.0], &MARKS).map_err(fault)?;
     let sidecar = Sidecar {
         size: vec![raster.width, raster.height],
         sample: "text".into(),
         metadata: metadata.clone(),
-        encoding: Encoding { no_data: mark, ..Encoding::default() },
+        encoding: stored.encoding,
         georeference: raster.georeference.clone(),
     };
     sidecar.write_with(path, if_exists, |writer| {
         writer.write_all(header.as_bytes())?;
-        let mark = mark.unwrap_or(-9999.0);
-        writeln!(writer, "NODATA_value {}", text(mark))?;
-        stored.numbers.chunks(raster.width).try_for_each(|row| write_row(row, mark, writer))
+        if let Some(mark) = stored.encoding.no_data {
+            writeln!(writer, "NODATA_value {}", Text(mark))?;
+        }
+        stored.numbers.chunks(raster.width).try_for_each(|row| write_row(row, writer))
     })
 }
+
+/// Numbers for missing cells; text has no NaN that every program reads.
+const MARKS: [f64; 3] = [-9999.0, -99999.0, -1e30];
 
 /// The key words before the no-data value.
 fn header(raster: &Raster) -> Result<String, Fault> {
@@ -60,9 +64,9 @@ fn header(raster: &Raster) -> Result<String, Fault> {
         "ncols {}\nnrows {}\nxll{word} {}\nyll{word} {}\ncellsize {}\n",
         raster.width,
         raster.height,
-        text(x),
-        text(y),
-        text(width)
+        Text(x),
+        Text(y),
+        Text(width)
     ))
 }
 
@@ -74,19 +78,22 @@ fn south(place: &Georeference, rows: usize) -> f64 {
     rounded.into_iter().find(|south: &f64| south + extent == place.north).unwrap_or(exact)
 }
 
-fn write_row(row: &[f64], mark: f64, writer: &mut impl Write) -> io::Result<()> {
-    for (column, &value) in row.iter().enumerate() {
+fn write_row(row: &[f64], writer: &mut impl Write) -> io::Result<()> {
+    for (column, &number) in row.iter().enumerate() {
         let separator = if column == 0 { "" } else { " " };
-        let value = if value.is_nan() { mark } else { value };
-        write!(writer, "{separator}{}", text(value))?;
+        write!(writer, "{separator}{}", Text(number))?;
     }
     writeln!(writer)
 }
 
-/// The shortest text that is read back as the same number.
-fn text(value: f64) -> String {
-    match value.abs() {
-        0.0 | 1e-5..1e16 => format!("{value}"),
-        _ => format!("{value:e}"),
+/// A number as the shortest text that is read back as the same number.
+struct Text(f64);
+
+impl fmt::Display for Text {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            0.0 | 1e-5..1e16 => write!(out, "{}", self.0),
+            _ => write!(out, "{:e}", self.0),
+        }
     }
 }

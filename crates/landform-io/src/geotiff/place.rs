@@ -24,6 +24,7 @@ const PROJECTED_SYSTEM: u16 = 3072;
 const LINEAR_UNIT: u16 = 3076;
 const LINEAR_UNIT_SIZE: u16 = 3077;
 const POINT: u16 = 2;
+const METRE: u16 = 9001;
 /// The value of a key that is described by other keys.
 const USER_DEFINED: u16 = 32767;
 
@@ -158,12 +159,16 @@ impl GeoKeys {
         }
         entries.extend(model.map(|_| [key, 0, 1, system.epsg.unwrap_or(USER_DEFINED)]));
         let mut doubles = Vec::new();
-        if let CoordinateKind::Projected { metres_per_unit } = system.kind {
-            if system.epsg.is_none() {
+        match system.kind {
+            CoordinateKind::Projected { metres_per_unit: 1.0 } => {
+                entries.push([LINEAR_UNIT, 0, 1, METRE]);
+            }
+            CoordinateKind::Projected { metres_per_unit } => {
                 entries.push([LINEAR_UNIT, 0, 1, USER_DEFINED]);
                 entries.push([LINEAR_UNIT_SIZE, 34736, 1, 0]);
                 doubles.push(metres_per_unit);
             }
+            CoordinateKind::Geographic | CoordinateKind::Unknown => {}
         }
         let header = [1, 1, 0, entries.len() as u16];
         let directory = std::iter::once(header).chain(entries).flatten().collect();

@@ -61,7 +61,7 @@ pub fn write(
         let problem = format!("{} x {} cells", raster.width, raster.height);
         return Err(fault(Fault::new(problem, "fewer than 2^32 a side", "write a part")));
     };
-    let stored = stored(raster, sample, [scale, offset]).map_err(fault)?;
+    let stored = stored(raster, sample, [scale, offset], sample.marks()).map_err(fault)?;
     let image = Image { raster, metadata, stored: &stored };
     let bytes = raster.values.len() as u64 * sample.size() as u64;
     crate::write_atomically(path, if_exists, |writer| {

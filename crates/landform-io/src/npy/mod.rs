@@ -54,7 +54,8 @@ pub fn write(
     sample: SampleType,
     if_exists: IfExists,
 ) -> Result<(), IoError> {
-    let stored = stored(raster, sample, [1.0, 0.0]).map_err(|fault| fault.writing(path))?;
+    let stored =
+        stored(raster, sample, [1.0, 0.0], sample.marks()).map_err(|fault| fault.writing(path))?;
     let sidecar = Sidecar {
         size: vec![raster.width, raster.height],
         sample: sample.name().into(),
