@@ -4,6 +4,7 @@ use ron::extensions::Extensions;
 use serde::Deserialize;
 use serde::de::{self, Deserializer};
 
+use super::super::edit::set;
 use super::*;
 
 #[derive(Debug, Deserialize)]
@@ -226,6 +227,21 @@ fn near_names_are_suggested_and_own_readers_keep_their_help() {
         let found = ron_diagnostic(&Source::new("x.ron", text), &error_of(text));
         assert_eq!(found.help.as_deref(), Some(help), "{text}");
     }
+}
+
+#[test]
+fn errors_in_set_values_show_the_argument_and_others_the_line_of_the_file() {
+    let source = Source::new("x.ron", "(\n  rate: 1,\n  count: x,\n)");
+    let first = set(&source, "rate", "fast").unwrap();
+    let rate = "error: rate cannot be fast\n --> --set rate=fast\n |\n | rate=fast\n |      ^^^^\n  \
+                expected: a number\n";
+    assert_eq!(ron_diagnostic(&first, &error_of(first.text())).render(&first), rate);
+    let second = set(&source, "rate", "100.25").unwrap();
+    let shown = ron_diagnostic(&second, &error_of(second.text())).render(&second);
+    assert!(shown.contains(" --> x.ron:3:10\n") && shown.contains("3 |   count: x,"), "{shown}");
+    let third = set(&source, "count", "1").and_then(|source| set(&source, "cuont", "1")).unwrap();
+    let shown = ron_diagnostic(&third, &error_of(third.text())).render(&third);
+    assert!(shown.contains(" --> --set cuont=1\n") && shown.contains("\"count\"?"), "{shown}");
 }
 
 #[test]
