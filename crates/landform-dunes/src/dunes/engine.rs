@@ -4,10 +4,11 @@ use landform_graph::Lattice;
 use landform_sim::random::{RandomStream, unit};
 use rayon::prelude::*;
 
-use super::avalanche::{AvalancheCounts, AvalancheScratch, Layers, settle};
+use super::avalanche::{AvalancheCounts, Layers, settle};
 use super::error::{DuneError, check_length};
 use super::feed::Feed;
 use super::plane::Plane;
+use super::sweep::Changes;
 use super::transport::{Band, Chances, Flight, SUB_STEPS, SubStep, survey, transport};
 use super::wind::Directions;
 use super::{DuneSettings, Exposure, Shelter, TransportCounts, WindLine};
@@ -44,7 +45,7 @@ struct Scratch {
     sheltered: Vec<bool>,
     ground: Vec<u8>,
     bands: Vec<Band>,
-    avalanche: AvalancheScratch,
+    changes: Changes,
 }
 
 impl Engine {
@@ -188,9 +189,9 @@ impl Engine {
     }
 
     fn avalanche(&mut self, bed: &[f64], sand: &mut [f64]) -> AvalancheCounts {
-        let Scratch { surface, avalanche, .. } = &mut self.scratch;
+        let Scratch { surface, changes, .. } = &mut self.scratch;
         let mut layers = Layers { bed, sand, surface };
-        settle(&self.lattice, &self.settings.avalanche, self.slab, &mut layers, avalanche)
+        settle(&self.lattice, &self.settings.avalanche, self.slab, &mut layers, changes)
     }
 
     fn raise_surface(&mut self, bed: &[f64], sand: &[f64]) {

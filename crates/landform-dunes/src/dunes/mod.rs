@@ -26,6 +26,7 @@ mod settings;
 mod shadow;
 mod shelter;
 mod smoothing;
+mod sweep;
 mod transport;
 mod wind;
 

@@ -1,0 +1,348 @@
+//! One sweep over a family of edges: which rows and edges to look at, serially or in parallel.
+
+use rayon::prelude::*;
+
+use super::avalanche::{Family, Layers, Part};
+use super::plane::Plane;
+
+/// Nodes in a tile, a piece of a row: one word of a bit set.
+const TILE: usize = 64;
+
+/// Edges that are compared at once before any of them is looked at alone.
+const GROUP: usize = 8;
+
+/// Nodes in rows with changes from which a family is worth several threads.
+const PARALLEL_NODES: usize = 1 << 15;
+
+/// What slid: the sum of thickness in metres, and the number of slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Slid {
+    pub amount: f64,
+    pub slides: u64,
+}
+
+/// What changed when: scratch of a pass of avalanches.
+///
+/// Sweeps are numbered. Every family sweeps once a round, so what it has not seen yet changed
+/// in the sweeps since its last one: as many as there are families.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Changes {
+    /// Sweep that last changed each tile.
+    tiles: Vec<u32>,
+    /// Sweep that last changed each row.
+    rows: Vec<u32>,
+    /// Nodes that the latest sweep of each family changed, one bit a node. Rows that a sweep
+    /// did not visit may hold older bits: looking again does no harm.
+    nodes: Vec<Vec<u64>>,
+    /// What slid in each row in the sweep under way.
+    slid: Vec<Slid>,
+}
+
+impl Changes {
+    /// Everything has changed, in a sweep just before the first, whose number this gives.
+    pub fn start(&mut self, plane: &Plane, families: usize) -> u32 {
+        let first = families as u32;
+        let tiles = plane.width.div_ceil(TILE) * plane.height;
+        renew(&mut self.tiles, tiles, first);
+        renew(&mut self.rows, plane.height, first);
+        renew(&mut self.slid, plane.height, Slid::default());
+        self.nodes.resize(families, Vec::new());
+        self.nodes.iter_mut().for_each(|nodes| renew(nodes, tiles, 0));
+        first
+    }
+}
+
+/// Makes a list of `length` equal values in place.
+fn renew<T: Clone>(list: &mut Vec<T>, length: usize, value: T) {
+    list.clear();
+    list.resize(length, value);
+}
+
+/// One sweep over the edges of a family.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sweep<'a> {
+    pub plane: &'a Plane,
+    pub family: &'a Family,
+    /// Place of the family in the order of a round.
+    pub place: usize,
+    /// Number of this sweep.
+    pub now: u32,
+    /// Number of families.
+    pub families: u32,
+    /// Whether this is the first round, which looks at every edge.
+    pub whole: bool,
+}
+
+impl Sweep<'_> {
+    /// Sweeps and says what slid.
+    pub fn run(&self, layers: &mut Layers<'_>, changes: &mut Changes) -> Slid {
+        let mut total = Slid::default();
+        let due = self.rows().filter(|&row| self.is_due(row, &changes.rows)).count();
+        if due == 0 {
+            return total;
+        }
+        let mut own = std::mem::take(&mut changes.nodes[self.place]);
+        let closing = self.family.rows == 1 && self.family.part == Part::Closing;
+        if closing || due * self.plane.width < PARALLEL_NODES {
+            self.run_serially(layers, changes, &mut own);
+        } else {
+            self.run_in_parallel(layers, changes, &mut own);
+        }
+        changes.nodes[self.place] = own;
+        for row in self.rows() {
+            let slid = std::mem::take(&mut changes.slid[row]);
+            if slid.slides > 0 {
+                total.amount += slid.amount;
+                total.slides += slid.slides;
+                changes.rows[row] = self.now;
+                changes.rows[self.end(row)] = self.now;
+            }
+        }
+        total
+    }
+
+    /// Rows that edges start in, in order.
+    fn rows(&self) -> std::iter::StepBy<std::ops::Range<usize>> {
+        let height = self.plane.height;
+        match (self.family.rows, self.family.part) {
+            (0, _) => (0..height).step_by(1),
+            (_, Part::Even) => (0..height - 1).step_by(2),
+            (_, Part::Odd) => (1..(height - 1).max(1)).step_by(2),
+            (_, Part::Closing) => (height - 1..height).step_by(1),
+        }
+    }
+
+    /// The row that edges from `row` end in.
+    fn end(&self, row: usize) -> usize {
+        (row + self.family.rows) % self.plane.height
+    }
+
+    /// Whether a sweep is later than the last one of this family.
+    fn is_new(&self, sweep: u32) -> bool {
+        sweep > self.now - self.families
+    }
+
+    /// Whether something changed in a row or the row that its edges end in.
+    fn is_due(&self, row: usize, rows: &[u32]) -> bool {
+        self.is_new(rows[row]) || self.is_new(rows[self.end(row)])
+    }
+
+    fn run_serially(&self, layers: &mut Layers<'_>, changes: &mut Changes, own: &mut [u64]) {
+        let width = self.plane.width;
+        let count = width.div_ceil(TILE);
+        for row in self.rows().filter(|&row| self.is_due(row, &changes.rows)) {
+            let end = self.end(row);
+            let edges = EdgeRow { sweep: self, row, end, from: row * width, to: end * width };
+            let tiles = &mut changes.tiles;
+            let mut marks = Marks { tiles, own, from: row * count, to: end * count };
+            changes.slid[row] = edges.sweep(layers, &mut marks, &changes.nodes);
+        }
+    }
+
+    fn run_in_parallel(&self, layers: &mut Layers<'_>, changes: &mut Changes, own: &mut [u64]) {
+        let width = self.plane.width;
+        let count = width.div_ceil(TILE);
+        // Rows come singly, or in pairs from the first or the second row on.
+        let taken = self.family.rows + 1;
+        let first = usize::from(self.family.rows == 1 && self.family.part == Part::Odd);
+        let Changes { tiles, rows, nodes, slid } = changes;
+        let fields = layers.sand[first * width..]
+            .par_chunks_mut(taken * width)
+            .zip(layers.surface[first * width..].par_chunks_mut(taken * width))
+            .zip(layers.bed[first * width..].par_chunks(taken * width));
+        let marks = tiles[first * count..]
+            .par_chunks_mut(taken * count)
+            .zip(own[first * count..].par_chunks_mut(taken * count))
+            .zip(slid[first..].par_chunks_mut(taken));
+        fields.zip(marks).enumerate().for_each(|(number, (fields, marks))| {
+            let ((sand, surface), bed) = fields;
+            let ((tiles, own), slid) = marks;
+            let row = first + number * taken;
+            if slid.len() < taken || !self.is_due(row, rows) {
+                return;
+            }
+            let [end, to] = [row + self.family.rows, self.family.rows];
+            let edges = EdgeRow { sweep: self, row, end, from: 0, to: to * width };
+            let mut marks = Marks { tiles, own, from: 0, to: to * count };
+            let mut layers = Layers { bed, sand, surface };
+            slid[0] = edges.sweep(&mut layers, &mut marks, nodes);
+        });
+    }
+}
+
+/// The marks of the rows that one task sweeps.
+struct Marks<'a> {
+    /// When each tile changed.
+    tiles: &'a mut [u32],
+    /// Bits of the nodes that this sweep changes.
+    own: &'a mut [u64],
+    /// Index of the first tile of the row that edges start in.
+    from: usize,
+    /// Index of the first tile of the row that edges end in.
+    to: usize,
+}
+
+/// The edges of a family that start in one row.
+#[derive(Clone, Copy, Debug)]
+struct EdgeRow<'a> {
+    sweep: &'a Sweep<'a>,
+    /// The row that the edges start in.
+    row: usize,
+    /// The row that they end in.
+    end: usize,
+    /// Index of the first node of these rows in the layers at hand.
+    from: usize,
+    to: usize,
+}
+
+impl EdgeRow<'_> {
+    /// Sweeps the row, except for tiles where nothing changed.
+    fn sweep(&self, layers: &mut Layers<'_>, marks: &mut Marks<'_>, nodes: &[Vec<u64>]) -> Slid {
+        let count = self.sweep.plane.width.div_ceil(TILE);
+        marks.own[marks.from..marks.from + count].fill(0);
+        marks.own[marks.to..marks.to + count].fill(0);
+        let mut total = Slid::default();
+        for tile in 0..count {
+            let beside = self.beside(tile, count);
+            let ends = [marks.from + tile, marks.to + tile, marks.to + beside];
+            if !ends.iter().any(|&end| self.sweep.is_new(marks.tiles[end])) {
+                continue;
+            }
+            let edges = match self.sweep.whole {
+                true => self.steep(layers.surface, tile),
+                false => self.changed(nodes, tile, beside),
+            };
+            let slid = self.slide(layers, marks, tile, edges & self.starts(tile));
+            if slid.slides > 0 {
+                ends.iter().for_each(|&end| marks.tiles[end] = self.sweep.now);
+                total.amount += slid.amount;
+                total.slides += slid.slides;
+            }
+        }
+        total
+    }
+
+    /// The other tile that edges from `tile` may end in.
+    fn beside(&self, tile: usize, count: usize) -> usize {
+        match self.sweep.family.columns {
+            1 if tile + 1 == count => 0,
+            1 => tile + 1,
+            -1 if tile == 0 => count - 1,
+            -1 => tile - 1,
+            _ => tile,
+        }
+    }
+
+    /// Bits of the columns of a tile where edges of the family start, but for an edge that
+    /// closes the row.
+    fn starts(&self, tile: usize) -> u64 {
+        const EVEN: u64 = 0x5555_5555_5555_5555;
+        let family = self.sweep.family;
+        let kind = match (family.rows, family.part) {
+            (0, Part::Even) => EVEN,
+            (0, Part::Odd) => !EVEN,
+            (0, Part::Closing) => 0,
+            _ if family.even_nodes => EVEN << (self.row % 2),
+            _ => u64::MAX,
+        };
+        let inner = self.inner(tile);
+        let below = |column: usize| match column - tile * TILE {
+            TILE => u64::MAX,
+            bit => (1 << bit) - 1,
+        };
+        kind & below(inner.end) & !below(inner.start)
+    }
+
+    /// Columns of a tile from which a step stays in the row.
+    fn inner(&self, tile: usize) -> std::ops::Range<usize> {
+        let columns = self.sweep.family.columns;
+        let first = (tile * TILE).max(usize::from(columns < 0));
+        let last = ((tile + 1) * TILE).min(self.sweep.plane.width - usize::from(columns > 0));
+        first..last.max(first)
+    }
+
+    /// Bits of the edges of a tile that are too steep. Edges of other parts may be among them.
+    fn steep(&self, surface: &[f64], tile: usize) -> u64 {
+        let trigger = self.sweep.family.rule.trigger();
+        let inner = self.inner(tile);
+        let first = &surface[self.from + inner.start..self.from + inner.end];
+        let end = (self.to + inner.start).wrapping_add_signed(self.sweep.family.columns);
+        let second = &surface[end..end + inner.len()];
+        let mut bits = 0;
+        let mut bit = inner.start - tile * TILE;
+        for (first, second) in first.chunks(GROUP).zip(second.chunks(GROUP)) {
+            let is_steep = |(a, b): (&f64, &f64)| (a - b).abs() > trigger;
+            let pairs = || first.iter().zip(second);
+            if pairs().fold(0, |any, pair| any | u64::from(is_steep(pair))) != 0 {
+                for (place, pair) in pairs().enumerate() {
+                    bits |= u64::from(is_steep(pair)) << (bit + place);
+                }
+            }
+            bit += GROUP;
+        }
+        bits
+    }
+
+    /// Bits of the edges of a tile with an end that changed since this family's last sweep.
+    fn changed(&self, nodes: &[Vec<u64>], tile: usize, beside: usize) -> u64 {
+        let count = self.sweep.plane.width.div_ceil(TILE);
+        let [from, to] = [self.row * count, self.end * count];
+        let mut words = [0; 3];
+        // This family's own list is away, so it is empty here.
+        for nodes in nodes.iter().filter(|nodes| !nodes.is_empty()) {
+            for (word, place) in words.iter_mut().zip([from + tile, to + tile, to + beside]) {
+                *word |= nodes[place];
+            }
+        }
+        let [start, end, next] = words;
+        start
+            | match self.sweep.family.columns {
+                1 => end >> 1 | next << 63,
+                -1 => end << 1 | next >> 63,
+                _ => end,
+            }
+    }
+
+    /// Columns of the edge that closes the row, if it starts in this tile.
+    fn closing(&self, tile: usize) -> Option<[usize; 2]> {
+        let Sweep { plane, family, .. } = self.sweep;
+        let last = plane.width - 1;
+        let (from, to) = if family.columns > 0 { (last, 0) } else { (0, last) };
+        let here = plane.wraps_columns
+            && family.columns != 0
+            && from / TILE == tile
+            && (family.rows == 1 || family.part == Part::Closing)
+            && (!family.even_nodes || (from + self.row).is_multiple_of(2));
+        here.then_some([from, to])
+    }
+
+    /// Lets sand slide along the edges of a tile given by bits.
+    fn slide(
+        &self,
+        layers: &mut Layers<'_>,
+        marks: &mut Marks<'_>,
+        tile: usize,
+        mut edges: u64,
+    ) -> Slid {
+        let family = self.sweep.family;
+        let mut total = Slid::default();
+        let mut slide = |first: usize, second: usize| {
+            let amount = family.rule.slide(layers, self.from + first, self.to + second);
+            if amount > 0.0 {
+                total.amount += amount;
+                total.slides += 1;
+                marks.own[marks.from + first / TILE] |= 1 << (first % TILE);
+                marks.own[marks.to + second / TILE] |= 1 << (second % TILE);
+            }
+        };
+        while edges != 0 {
+            let column = tile * TILE + edges.trailing_zeros() as usize;
+            edges &= edges - 1;
+            slide(column, column.wrapping_add_signed(family.columns));
+        }
+        if let Some([first, second]) = self.closing(tile) {
+            slide(first, second);
+        }
+        total
+    }
+}
