@@ -241,3 +241,66 @@ impl Lattice {
         DVec3::new(x as f64, north as f64, z as f64) * self.spacing
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Boundary::{Open, Periodic};
+    use super::*;
+    use crate::testing::any_lattice;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn coordinates_and_nodes_are_inverse(lattice in any_lattice()) {
+            let mut last = None;
+            for node in 0..lattice.node_count() {
+                let at = lattice.coordinates(node);
+                prop_assert_eq!(lattice.node(at), node);
+                let reversed = [at[2], at[1], at[0]];
+                prop_assert!(last.is_none_or(|last| last < reversed), "x runs fastest, then y");
+                last = Some(reversed);
+            }
+        }
+
+        #[test]
+        fn positions_of_open_neighbours_are_as_far_as_their_edge(lattice in any_lattice()) {
+            for node in 0..lattice.node_count() {
+                let here = lattice.position(node);
+                for edge in lattice.neighbours(node) {
+                    let [x, y, z] = edge.step.map(f64::from);
+                    let moved = DVec3::new(x, -y, z) * lattice.spacing();
+                    prop_assert!((moved.length() - edge.distance).abs() < 1e-12 * edge.distance);
+                    let straight = (lattice.position(edge.node) - here - moved).length();
+                    let wraps = (0..3).any(|axis| lattice.is_periodic(axis));
+                    prop_assert!(wraps || straight < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_lattices_are_refused_with_a_reason() {
+        let plane = |size, spacing, kind, boundary| Lattice::plane(size, spacing, kind, boundary);
+        let message = |made: Result<Lattice, LatticeError>| made.unwrap_err().to_string();
+        let open = [Open; 2];
+        let empty = message(plane([0, 4], 1.0, Connectivity::Four, open));
+        assert_eq!(empty, "axis x has 0 nodes; it needs at least 1");
+        let short = message(plane([4, 2], 1.0, Connectivity::Four, [Open, Periodic]));
+        assert_eq!(short, "axis y has 2 nodes; it needs at least 3 because it is periodic");
+        let odd = plane([5, 4], 1.0, Connectivity::FourEight, [Periodic; 2]);
+        assert_eq!(odd, Err(LatticeError::OddPeriodic { axis: 'x', nodes: 5 }));
+        for spacing in [0.0, -1.0, f64::INFINITY] {
+            let made = plane([4, 4], spacing, Connectivity::Four, open);
+            assert_eq!(made, Err(LatticeError::Spacing(spacing)));
+        }
+        assert!(plane([4, 4], f64::NAN, Connectivity::Four, open).is_err());
+        let huge = plane([1 << 40, 1 << 40], 1.0, Connectivity::Four, open);
+        assert_eq!(huge, Err(LatticeError::TooLarge([1 << 40, 1 << 40, 1])));
+        let voxels = plane([4, 4], 1.0, Connectivity::Voxel6, open);
+        let connectivity = Connectivity::Voxel6;
+        assert_eq!(voxels, Err(LatticeError::Dimensions { connectivity, dimensions: 2 }));
+        let mesh = Lattice::volume([4; 3], 1.0, Connectivity::FourEight, [Open; 3]);
+        let connectivity = Connectivity::FourEight;
+        assert_eq!(mesh, Err(LatticeError::Dimensions { connectivity, dimensions: 3 }));
+    }
+}

@@ -1,0 +1,259 @@
+//! Listing 5.2 with a cost an edge: the greatest field below limits, at full speed.
+
+use super::{MarchError, check_length};
+use crate::{Edge, Lattice};
+
+/// Buckets that are kept at a time; later values wait together.
+const BUCKETS: usize = 64;
+
+/// Lowers a field until no value exceeds that of a neighbour by more than the cost of the
+/// edge between them (thesis, listing 5.2: pressure that rises by at most a slope a metre).
+///
+/// What it computes: the greatest field `p` with `p <= p0` and `p(N) <= p(S) + cost(S, N)` for
+/// every edge that leads out of a node reached from the starts. There is one such field, and
+/// floating-point addition is monotone, so the result is the same, bit for bit, in whatever
+/// order nodes are visited; [`super::Front`] with the update of listing 5.2 gives it too.
+///
+/// Scheme: nodes wait in buckets of values (Dial 1969; delta-stepping, Meyer and Sanders
+/// 2003). The nodes of the lowest bucket are relaxed together, in node order, which visits
+/// memory nearly in sequence and needs no heap.
+#[derive(Clone, Debug)]
+pub struct Relaxation {
+    buckets: Vec<Vec<u32>>,
+    /// Nodes whose values lie beyond the buckets.
+    far: Vec<u32>,
+    /// Nodes of the bucket that is being relaxed.
+    frontier: Vec<u32>,
+    /// Value at which bucket 0 begins.
+    base: f64,
+    width: f64,
+}
+
+impl Default for Relaxation {
+    fn default() -> Self {
+        let buckets = vec![Vec::new(); BUCKETS];
+        Self { buckets, far: Vec::new(), frontier: Vec::new(), base: 0.0, width: 1.0 }
+    }
+}
+
+impl Relaxation {
+    /// Memory for relaxations; it grows with the width of the front.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Relaxes `values` (one a node) outwards from `starts`, the nodes that were lowered.
+    /// Returns the number of times that a node was relaxed.
+    ///
+    /// `cost(from, edge)` is the most by which the value at `edge.node` may exceed that at
+    /// `from`: 0 or more, infinite for an edge that sets no limit. `width` is the range of
+    /// values in a bucket: any gives the same result, about twice a typical cost is fast.
+    /// Values that are infinite limit nothing; those that are not numbers are left alone.
+    ///
+    /// # Errors
+    /// [`MarchError::Length`], [`MarchError::Start`], [`MarchError::Width`] and, for a start
+    /// whose value is not a number or minus infinity, [`MarchError::Value`] leave `values` as
+    /// they were. [`MarchError::Cost`] (a negative cost, or one that is not a number) leaves
+    /// them partly relaxed.
+    pub fn relax(
+        &mut self,
+        lattice: &Lattice,
+        values: &mut [f64],
+        starts: &[usize],
+        width: f64,
+        cost: impl Fn(usize, &Edge) -> f64,
+    ) -> Result<usize, MarchError> {
+        self.begin(lattice, values, starts, width)?;
+        let mut relaxed = 0;
+        while self.rebase(values, width) {
+            for bucket in 0..BUCKETS {
+                while self.take_frontier(bucket, values) {
+                    relaxed += self.frontier.len();
+                    self.relax_frontier(lattice, values, &cost)?;
+                }
+            }
+        }
+        Ok(relaxed)
+    }
+
+    fn begin(
+        &mut self,
+        lattice: &Lattice,
+        values: &[f64],
+        starts: &[usize],
+        width: f64,
+    ) -> Result<(), MarchError> {
+        check_length(lattice, "value", values.len())?;
+        if !(width > 0.0 && width.is_finite()) {
+            return Err(MarchError::Width(width));
+        }
+        let nodes = lattice.node_count();
+        for &node in starts {
+            let &value = values.get(node).ok_or(MarchError::Start { node, nodes })?;
+            if value.is_nan() || value == f64::NEG_INFINITY {
+                return Err(MarchError::Value { field: "value", node, value });
+            }
+        }
+        self.buckets.iter_mut().for_each(Vec::clear);
+        self.base = f64::NEG_INFINITY;
+        self.far.clear();
+        let finite = starts.iter().filter(|&&node| values[node].is_finite());
+        self.far.extend(finite.map(|&node| node as u32));
+        Ok(())
+    }
+
+    /// Bucket of a value, `None` beyond the last.
+    #[inline]
+    fn bucket_of(&self, value: f64) -> Option<usize> {
+        let bucket = ((value - self.base) / self.width) as usize;
+        (bucket < BUCKETS).then_some(bucket)
+    }
+
+    /// Moves the buckets up to the lowest value that waits; false if none does.
+    fn rebase(&mut self, values: &[f64], least_width: f64) -> bool {
+        let mut waiting = std::mem::take(&mut self.far);
+        // A value that has fallen into the old buckets was relaxed with them.
+        waiting.retain(|&node| self.bucket_of(values[node as usize]).is_none());
+        let due = || waiting.iter().map(|&node| values[node as usize]);
+        let lowest = due().fold(f64::INFINITY, f64::min);
+        let highest = due().fold(f64::NEG_INFINITY, f64::max);
+        self.base = lowest;
+        self.width = least_width.max((highest - lowest) / (BUCKETS * BUCKETS) as f64);
+        for &node in &waiting {
+            self.put(node, values[node as usize]);
+        }
+        !waiting.is_empty()
+    }
+
+    #[inline]
+    fn put(&mut self, node: u32, value: f64) {
+        match self.bucket_of(value) {
+            Some(bucket) => self.buckets[bucket].push(node),
+            None => self.far.push(node),
+        }
+    }
+
+    /// Empties a bucket into the frontier, in node order; false if the bucket was empty.
+    fn take_frontier(&mut self, bucket: usize, values: &[f64]) -> bool {
+        self.frontier.clear();
+        std::mem::swap(&mut self.frontier, &mut self.buckets[bucket]);
+        let found = !self.frontier.is_empty();
+        let mut frontier = std::mem::take(&mut self.frontier);
+        // A node whose value has fallen further was relaxed with a lower bucket.
+        frontier.retain(|&node| self.bucket_of(values[node as usize]) == Some(bucket));
+        frontier.sort_unstable();
+        frontier.dedup();
+        self.frontier = frontier;
+        found
+    }
+
+    fn relax_frontier(
+        &mut self,
+        lattice: &Lattice,
+        values: &mut [f64],
+        cost: &impl Fn(usize, &Edge) -> f64,
+    ) -> Result<(), MarchError> {
+        let frontier = std::mem::take(&mut self.frontier);
+        for &node in &frontier {
+            let from = node as usize;
+            for edge in lattice.neighbours(from) {
+                let cost = cost(from, &edge);
+                if cost.is_nan() || cost < 0.0 {
+                    return Err(MarchError::Cost { from, to: edge.node, cost });
+                }
+                let through = values[from] + cost;
+                if through < values[edge.node] {
+                    values[edge.node] = through;
+                    self.put(edge.node as u32, through);
+                }
+            }
+        }
+        self.frontier = frontier;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Front;
+    use super::*;
+    use crate::testing::any_field;
+    use crate::{Boundary, Connectivity};
+    use proptest::prelude::*;
+
+    /// The fixed point by sweeps over all edges until nothing changes.
+    fn by_sweeps(lattice: &Lattice, values: &mut [f64], cost: impl Fn(usize, &Edge) -> f64) {
+        loop {
+            let mut changed = false;
+            for node in 0..lattice.node_count() {
+                for edge in lattice.neighbours(node) {
+                    let through = values[node] + cost(node, &edge);
+                    changed |= through < values[edge.node];
+                    values[edge.node] = values[edge.node].min(through);
+                }
+            }
+            if !changed {
+                return;
+            }
+        }
+    }
+
+    proptest! {
+        /// Buckets of any width, the front of listing 5.2 and plain sweeps give the same bits.
+        #[test]
+        fn all_schedules_give_the_same_bits(
+            (lattice, rock) in any_field(), scale in 0.0..30.0_f64, power in -9..3_i32,
+        ) {
+            let cost = |from: usize, edge: &Edge| {
+                // Channels and walls among the rock.
+                let slope = match rock[from] {
+                    hard if hard > 0.9 => f64::INFINITY,
+                    soft if soft < 0.3 => 0.001,
+                    rock => rock,
+                };
+                slope * edge.distance
+            };
+            let before: Vec<_> = rock.iter().map(|rock| rock * scale).collect();
+            let starts: Vec<_> = (0..lattice.node_count()).collect();
+            let mut expected = before.clone();
+            by_sweeps(&lattice, &mut expected, cost);
+
+            let mut relaxed = before.clone();
+            let mut relaxation = Relaxation::new();
+            let width = 10.0_f64.powi(power);
+            let count = relaxation.relax(&lattice, &mut relaxed, &starts, width, cost);
+            prop_assert!(count.is_ok());
+            prop_assert_eq!(&relaxed, &expected);
+
+            let mut pressure = before;
+            let starts: Vec<_> = starts.into_iter().map(|node| (node, 0.0)).collect();
+            let marched = Front::new().march(&lattice, &starts, |from, edge| {
+                let new_pressure = pressure[from] + cost(from, edge);
+                (new_pressure < pressure[edge.node]).then(|| {
+                    pressure[edge.node] = new_pressure;
+                    0.0
+                })
+            });
+            prop_assert!(marched.is_ok());
+            prop_assert_eq!(&pressure, &expected);
+        }
+    }
+
+    #[test]
+    fn what_has_no_meaning_is_refused() {
+        let lattice = Lattice::plane([3, 1], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
+        let mut relaxation = Relaxation::new();
+        let mut relax = |start: usize, first: f64, width: f64, cost: f64| {
+            let mut values = [first, 5.0, 5.0];
+            relaxation.relax(&lattice, &mut values, &[start], width, |_, _| cost).map(|_| values)
+        };
+        assert_eq!(relax(0, 0.0, 1.0, 2.0), Ok([0.0, 2.0, 4.0]));
+        assert_eq!(relax(0, f64::INFINITY, 1.0, 2.0), Ok([f64::INFINITY, 5.0, 5.0]));
+        assert_eq!(relax(3, 0.0, 1.0, 2.0), Err(MarchError::Start { node: 3, nodes: 3 }));
+        assert_eq!(relax(0, 0.0, 0.0, 2.0), Err(MarchError::Width(0.0)));
+        assert_eq!(relax(0, 0.0, 1.0, -1.0), Err(MarchError::Cost { from: 0, to: 1, cost: -1.0 }));
+        assert!(matches!(relax(0, f64::NAN, 1.0, 2.0), Err(MarchError::Value { node: 0, .. })));
+        // A refused relaxation leaves nothing behind in the memory.
+        assert_eq!(relax(0, 0.0, 1.0, 2.0), Ok([0.0, 2.0, 4.0]));
+    }
+}
