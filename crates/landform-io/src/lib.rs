@@ -15,6 +15,7 @@ mod raster;
 pub mod raw;
 mod sample;
 #[cfg(test)]
+#[path = "../tests/support/mod.rs"]
 mod scratch;
 mod stored;
 
