@@ -27,6 +27,7 @@ pub fn set(source: &Source, path: &str, value: &str) -> Result<Source, Diagnosti
     })
 }
 
+/// One `--set` with the text that it changes.
 struct Edit<'s> {
     source: &'s Source,
     path: &'s str,
@@ -34,6 +35,7 @@ struct Edit<'s> {
 }
 
 impl Edit<'_> {
+    /// Walks to the parent of the value, then replaces the value or adds it.
     fn made(&self) -> Result<Source, Diagnostic> {
         let tree = Tree::parse(self.source.text());
         let parts: Vec<&str> = parts(self.path).collect();
@@ -58,12 +60,14 @@ impl Edit<'_> {
         }
     }
 
+    /// The source with another value in place of `old`.
     fn replaced(&self, old: &Node) -> Result<Source, Diagnostic> {
         let value = written(self.value, old.kind == Kind::Text)
             .map_err(|diagnostic| diagnostic.at(old.span))?;
         Ok(self.source.replaced(old.span, self.argument(), &[(&value, self.value_span())]))
     }
 
+    /// The source with the value as a new field.
     fn inserted(&self, slot: &Slot) -> Result<Source, Diagnostic> {
         let place = Span::new(slot.at, slot.at);
         let value = written(self.value, false).map_err(|diagnostic| diagnostic.at(place))?;
@@ -73,10 +77,12 @@ impl Edit<'_> {
         Ok(self.source.replaced(place, self.argument(), &parts))
     }
 
+    /// The edit as it stands on the command line.
     fn argument(&self) -> String {
         format!("{}={}", self.path, self.value)
     }
 
+    /// The value in [`Edit::argument`].
     fn value_span(&self) -> Span {
         let start = self.path.len() + 1;
         Span::new(start, start + self.value.len())
@@ -111,6 +117,7 @@ impl Slot {
     }
 }
 
+/// Whether the value is the option `None`, which can hold no field.
 fn is_none(node: &Node) -> bool {
     node.name.as_ref().is_some_and(|name| name.name == "None")
 }
@@ -150,6 +157,8 @@ fn written(value: &str, replaces_string: bool) -> Result<String, Diagnostic> {
     }
 }
 
+/// Whether the text begins like a struct, list or map, so that a slip in it should be reported
+/// rather than turned into a string.
 fn is_bracketed(value: &str) -> bool {
     value.starts_with(['(', '[', '{'])
 }

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::lexer::Tokens;
 use super::path::inside;
-use super::{Diagnostic, Kind, Node, Position, Source, Span, Tree, locate, ron_diagnostic, set};
+use super::{
+    Diagnostic, Kind, Node, Place, Position, Source, Span, Tree, locate, ron_diagnostic, set,
+};
 
 /// A value of every form that RON can write.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -239,5 +241,26 @@ proptest! {
             let edited = set(&source, path, span.of(&text)).unwrap();
             prop_assert_eq!(edited.text(), &text, "{}", path);
         }
+    }
+
+    #[test]
+    fn after_edits_every_byte_of_the_file_still_leads_back_to_it(
+        edits in proptest::collection::vec((0..4_usize, 0..1_000_000_u64), 0..6),
+    ) {
+        let file = "(a: 12, b: (c: 3, d: [4, 56]), // e\n f: Dunes)";
+        let mut source = Source::new("x.ron", file);
+        for (pick, value) in edits {
+            let path = ["a", "b.d[1]", "b.new", "f.k"][pick];
+            source = set(&source, path, &value.to_string()).unwrap();
+        }
+        for (at, letter) in source.text().char_indices() {
+            let place = source.place(Span::new(at, at + 1));
+            let (text, span, exact) = match place {
+                Place::File { text, span } => (text, span, true),
+                Place::Argument { text, span } => (text, span, letter.is_ascii_digit()),
+            };
+            prop_assert!(!exact || span.of(text) == letter.to_string(), "{letter} {place:?}");
+        }
+        prop_assert!(ron::from_str::<ron::Value>(source.text()).is_ok());
     }
 }

@@ -75,7 +75,9 @@ mod tests;
 /// An error with what is needed to explain it.
 struct Refused<'a> {
     tree: Tree<'a>,
+    /// The message of ron or of a reader, its first letter small.
     words: String,
+    /// From the last token that was read to where reading stopped.
     span: Span,
 }
 
@@ -104,6 +106,7 @@ impl Refused<'_> {
         }
     }
 
+    /// Errors whose words hold a name or a value, and those that are passed on.
     fn other(&self) -> Diagnostic {
         let words = self.words.as_str();
         let found = words.strip_prefix("expected ").and_then(|rest| rest.split_once(" but found "));
@@ -138,6 +141,7 @@ impl Refused<'_> {
         }
     }
 
+    /// A struct written with another name than its own.
     fn other_struct(&self, expected: &str, found: &str) -> Diagnostic {
         let (expected, found) = (quoted_names(expected).next(), quoted_names(found).next());
         let (expected, found) = (expected.unwrap_or_default(), found.unwrap_or_default());
@@ -169,6 +173,7 @@ impl Refused<'_> {
         Diagnostic { message: message.to_owned(), span: Some(span), expected, help }
     }
 
+    /// A field or variant that the type does not have; the names it has are in the error.
     fn unknown_name(&self, what: &str) -> Diagnostic {
         let (head, tail) = self.words.split_once(", ").unwrap_or((&self.words, ""));
         let mut heads = quoted_names(head);
@@ -188,6 +193,8 @@ impl Refused<'_> {
         place.name.as_ref().filter(|_| place.open.is_some()).map(|name| name.name)
     }
 
+    /// A field without a default that is not written. The error stands at the end of the struct,
+    /// which may be pages further down, so the name of the struct is pointed at instead.
     fn missing_field(&self) -> Diagnostic {
         let mut names = quoted_names(&self.words);
         let field = names.next().unwrap_or_default();
@@ -215,6 +222,7 @@ impl Refused<'_> {
         self.entries().find(|(_, node)| node.close.is_some_and(closes))
     }
 
+    /// A value of another type than the field's, shown as it is written.
     fn wrong_value(&self, expected: &str) -> Diagnostic {
         let span = self.place();
         let label = self.label();
@@ -225,6 +233,8 @@ impl Refused<'_> {
         Diagnostic::new(message).at(span).expected(expected)
     }
 
+    /// Something else where a comma, a colon or a closing bracket should be. Most often something
+    /// before it has no end; else a number went on after what was read of it (`3.5` as `3`).
     fn wrong_mark(&self, expected: &str) -> Diagnostic {
         let token = self.token();
         let at_end = token.is_none_or(|token| {
@@ -248,6 +258,7 @@ impl Refused<'_> {
         }
     }
 
+    /// A bracket, string or comment without an end, at the place where it begins.
     fn unclosed(&self, span: Span) -> Diagnostic {
         let opening = span.of(self.tree.text);
         let (what, end) = match opening.chars().next() {

@@ -76,6 +76,7 @@ pub struct Node<'a> {
 }
 
 impl<'a> Node<'a> {
+    /// A value without brackets.
     fn leaf(kind: Kind, span: Span) -> Self {
         Self { span, kind, name: None, open: None, close: None, entries: Vec::new() }
     }
@@ -130,6 +131,7 @@ impl<'a> Tree<'a> {
     }
 }
 
+/// A reader of tokens that always goes on.
 struct Scanner<'a> {
     text: &'a str,
     tokens: Peekable<Tokens<'a>>,
@@ -148,6 +150,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// The next token, if it is `symbol`.
     fn next_if(&mut self, symbol: Symbol) -> Option<Token> {
         self.tokens.next_if(|token| token.symbol == symbol)
     }
@@ -186,6 +189,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
+    /// A number, or the range that it begins.
     fn number(&mut self, token: Token) -> Node<'a> {
         match self.next_if(Symbol::Range) {
             Some(dots) => self.range(Span::new(token.span.start, dots.span.end)),
@@ -199,6 +203,7 @@ impl<'a> Scanner<'a> {
         Node::leaf(Kind::Range, Span::new(span.start, end))
     }
 
+    /// What begins with a name: a struct or variant, or a word such as `true`.
     fn named(&mut self, token: Token) -> Node<'a> {
         let written = token.span.of(self.text);
         let kind = match written {
@@ -264,6 +269,7 @@ impl<'a> Scanner<'a> {
         (entries, end)
     }
 
+    /// A value with the key before it, if a colon follows the first value.
     fn entry(&mut self) -> Entry<'a> {
         let first = self.value();
         if self.next_if(Symbol::Colon).is_none() {
@@ -300,6 +306,7 @@ impl<'a> Scanner<'a> {
     }
 }
 
+/// The bracket that closes another.
 fn closer(bracket: char) -> char {
     match bracket {
         '(' => ')',
@@ -308,6 +315,7 @@ fn closer(bracket: char) -> char {
     }
 }
 
+/// What brackets and their content make.
 fn kind_of(bracket: char, entries: &[Entry]) -> Kind {
     match bracket {
         '[' => Kind::List,
