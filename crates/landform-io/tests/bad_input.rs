@@ -132,13 +132,17 @@ fn absurd_sizes_are_refused_at_once() {
         &message(&folder, "a.tif", tiff_header(1_000_000_000)),
         &["1000000000 x 1000000000"],
     );
-    assert_says(&message(&folder, "b.tif", tiff_header(16_000)), &["b.tif", "damaged"]);
+    assert_says(
+        &message(&folder, "b.tif", tiff_header(16_000)),
+        &["b.tif", "strip or tile 0", "cut off"],
+    );
 }
 
 /// The directory of a TIFF file that claims `side` x `side` doubles and holds no data.
 fn tiff_header(side: u32) -> Vec<u8> {
-    let tags: [(u16, u32); 8] =
-        [(256, side), (257, side), (258, 64), (259, 1), (262, 1), (277, 1), (278, side), (339, 3)];
+    let size = [(256, side), (257, side), (258, 64), (259, 1), (262, 1)];
+    let strips = [(273, 8), (277, 1), (278, side), (279, 100), (339, 3)];
+    let tags: Vec<(u16, u32)> = size.into_iter().chain(strips).collect();
     let mut bytes = b"II\x2a\x00\x08\x00\x00\x00".to_vec();
     bytes.extend((tags.len() as u16).to_le_bytes());
     for (tag, value) in tags {

@@ -160,7 +160,7 @@ fn pictures_say_how_grey_becomes_height() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_raster_is_kept_bit_for_bit(
