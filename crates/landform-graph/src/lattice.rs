@@ -4,6 +4,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::Edge;
+
 /// Which nodes of a lattice are joined by edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Connectivity {
@@ -93,6 +95,8 @@ pub struct Lattice {
     boundary: [Boundary; 3],
     /// Lengths in metres of edges over a face, over an edge and over a corner of a cell.
     edge_lengths: [f64; 3],
+    /// The edges of an inner node, with differences of indices in place of nodes.
+    stencil: Vec<Edge>,
 }
 
 impl Lattice {
@@ -138,7 +142,8 @@ impl Lattice {
         boundary: [Boundary; 3],
     ) -> Result<Self, LatticeError> {
         let edge_lengths = [spacing, spacing * 2.0_f64.sqrt(), spacing * 3.0_f64.sqrt()];
-        let lattice = Self { size, spacing, connectivity, boundary, edge_lengths };
+        let stencil = Vec::new();
+        let mut lattice = Self { size, spacing, connectivity, boundary, edge_lengths, stencil };
         lattice.check_axes()?;
         if !(spacing > 0.0 && spacing.is_finite()) {
             return Err(LatticeError::Spacing(spacing));
@@ -149,6 +154,7 @@ impl Lattice {
             .and_then(|area| area.checked_mul(depth))
             .filter(|&count| count <= u32::MAX as usize)
             .ok_or(LatticeError::TooLarge(size))?;
+        lattice.stencil = lattice.inner_edges();
         Ok(lattice)
     }
 
@@ -228,9 +234,18 @@ impl Lattice {
     }
 
     /// Column, row and layer of a node.
+    #[inline]
     pub fn coordinates(&self, node: usize) -> [usize; 3] {
-        let [width, height, _] = self.size;
-        [node % width, node / width % height, node / (width * height)]
+        // Indices and sizes fit 32 bits, of which division is much faster.
+        let [node, width, height] = [node, self.size[0], self.size[1]].map(|n| n as u32);
+        let (row, x) = (node / width, node % width);
+        [x, row % height, row / height].map(|n| n as usize)
+    }
+
+    /// The edges of an inner node, with differences of indices in place of nodes.
+    #[inline]
+    pub(crate) fn stencil(&self) -> &[Edge] {
+        &self.stencil
     }
 
     /// Position in metres: x east, y north, z up; the south-west corner node of the lowest

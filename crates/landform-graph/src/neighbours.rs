@@ -53,17 +53,7 @@ pub struct Neighbours<'a> {
     origin: [usize; 3],
     /// No step leads over a border, so indices need neither wrapping nor checking.
     interior: bool,
-    steps: std::slice::Iter<'static, [i8; 3]>,
-}
-
-impl Neighbours<'_> {
-    #[inline]
-    fn target(&self, step: [i8; 3]) -> Option<usize> {
-        if self.interior {
-            return Some(self.node.wrapping_add_signed(self.lattice.index_offset(step)));
-        }
-        self.lattice.offset(self.origin, step.map(isize::from))
-    }
+    stencil: std::slice::Iter<'a, Edge>,
 }
 
 impl Iterator for Neighbours<'_> {
@@ -71,16 +61,20 @@ impl Iterator for Neighbours<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<Edge> {
+        if self.interior {
+            let edge = self.stencil.next()?;
+            return Some(Edge { node: self.node.wrapping_add(edge.node), ..*edge });
+        }
         loop {
-            let &step = self.steps.next()?;
-            if let Some(node) = self.target(step) {
-                return Some(Edge { node, step, distance: self.lattice.step_length(step) });
+            let edge = self.stencil.next()?;
+            if let Some(node) = self.lattice.offset(self.origin, edge.step.map(isize::from)) {
+                return Some(Edge { node, ..*edge });
             }
         }
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        let most = self.steps.len();
+        let most = self.stencil.len();
         (if self.interior { most } else { 0 }, Some(most))
     }
 }
@@ -93,8 +87,23 @@ impl Lattice {
     pub fn neighbours(&self, node: usize) -> Neighbours<'_> {
         let origin = self.coordinates(node);
         let interior = self.is_interior(origin);
-        let steps = self.steps_at(origin).iter();
-        Neighbours { lattice: self, node, origin, interior, steps }
+        let stencil = match self.connectivity() {
+            Connectivity::FourEight => &self.stencil()[..self.steps_at(origin).len()],
+            _ => self.stencil(),
+        };
+        Neighbours { lattice: self, node, origin, interior, stencil: stencil.iter() }
+    }
+
+    /// The edges of an inner node, with differences of indices in place of nodes.
+    pub(crate) fn inner_edges(&self) -> Vec<Edge> {
+        let [width, height, _] = self.size().map(|size| size as isize);
+        // Node (0, 0) has every step that any node has.
+        let edge = |&step: &[i8; 3]| {
+            let [x, y, z] = step.map(isize::from);
+            let offset = x + width * (y + height * z);
+            Edge { node: offset as usize, step, distance: self.step_length(step) }
+        };
+        self.steps_at([0; 3]).iter().map(edge).collect()
     }
 
     /// Whether no edge that leaves `origin` reaches over a border, be it open or periodic.
@@ -102,13 +111,6 @@ impl Lattice {
     pub fn is_interior(&self, origin: [usize; 3]) -> bool {
         let inside = |axis: usize| origin[axis] > 0 && origin[axis] + 1 < self.size()[axis];
         inside(0) && inside(1) && (inside(2) || !self.connectivity().is_volume())
-    }
-
-    /// Difference of node indices over `step` where no border is crossed.
-    #[inline]
-    fn index_offset(&self, step: [i8; 3]) -> isize {
-        let [x, y, z] = step.map(isize::from);
-        x + self.width() as isize * (y + self.height() as isize * z)
     }
 
     /// The steps that a node at `origin` may take, whether or not they leave the lattice.

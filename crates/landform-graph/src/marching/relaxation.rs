@@ -26,13 +26,14 @@ pub struct Relaxation {
     frontier: Vec<u32>,
     /// Value at which bucket 0 begins.
     base: f64,
-    width: f64,
+    /// Reciprocal of the range of values in a bucket.
+    per_width: f64,
 }
 
 impl Default for Relaxation {
     fn default() -> Self {
         let buckets = vec![Vec::new(); BUCKETS];
-        Self { buckets, far: Vec::new(), frontier: Vec::new(), base: 0.0, width: 1.0 }
+        Self { buckets, far: Vec::new(), frontier: Vec::new(), base: 0.0, per_width: 1.0 }
     }
 }
 
@@ -105,7 +106,7 @@ impl Relaxation {
     /// Bucket of a value, `None` beyond the last.
     #[inline]
     fn bucket_of(&self, value: f64) -> Option<usize> {
-        let bucket = ((value - self.base) / self.width) as usize;
+        let bucket = ((value - self.base) * self.per_width) as usize;
         (bucket < BUCKETS).then_some(bucket)
     }
 
@@ -118,7 +119,7 @@ impl Relaxation {
         let lowest = due().fold(f64::INFINITY, f64::min);
         let highest = due().fold(f64::NEG_INFINITY, f64::max);
         self.base = lowest;
-        self.width = least_width.max((highest - lowest) / (BUCKETS * BUCKETS) as f64);
+        self.per_width = least_width.max((highest - lowest) / (BUCKETS * BUCKETS) as f64).recip();
         for &node in &waiting {
             self.put(node, values[node as usize]);
         }
@@ -156,12 +157,13 @@ impl Relaxation {
         let frontier = std::mem::take(&mut self.frontier);
         for &node in &frontier {
             let from = node as usize;
+            let value = values[from];
             for edge in lattice.neighbours(from) {
                 let cost = cost(from, &edge);
                 if cost.is_nan() || cost < 0.0 {
                     return Err(MarchError::Cost { from, to: edge.node, cost });
                 }
-                let through = values[from] + cost;
+                let through = value + cost;
                 if through < values[edge.node] {
                     values[edge.node] = through;
                     self.put(edge.node as u32, through);

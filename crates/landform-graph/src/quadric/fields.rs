@@ -21,23 +21,18 @@ pub fn gradient_field(lattice: &Lattice, field: &[f64], east: &mut [f64], north:
     let scale = 1.0 / lattice.spacing();
     let rows = east.par_chunks_mut(width).zip(north.par_chunks_mut(width)).enumerate();
     rows.for_each(|(row, (east, north))| {
-        let border = |x: usize| {
-            let gradient = Quadric::fit(lattice, field, row * width + x).gradient;
-            (gradient.x, gradient.y)
-        };
-        let mut write = |x: usize, (to_east, to_north): (f64, f64)| {
-            east[x] = to_east;
-            north[x] = to_north;
-        };
-        let Some(window) = RowWindow::new(lattice, field, row) else {
-            return (0..width).for_each(|x| write(x, border(x)));
-        };
-        let cross = lattice.connectivity() == Connectivity::Four;
-        for_each_inner(width, |x| {
-            let (x_slope, y_slope) = if cross { window.cross_slopes(x) } else { window.slopes(x) };
-            write(x, (x_slope * scale, y_slope * -scale));
+        let inner = RowWindow::new(lattice, field, row).map_or(0..0, |window| {
+            let out = east[1..].iter_mut().zip(&mut north[1..]);
+            match lattice.connectivity() {
+                Connectivity::Four => write_slopes(window.crosses().map(slopes), scale, out),
+                _ => write_slopes(window.squares().map(slopes), scale, out),
+            }
+            1..width - 1
         });
-        [0, width - 1].into_iter().for_each(|x| write(x, border(x)));
+        for x in (0..width).filter(|x| !inner.contains(x)) {
+            let gradient = Quadric::fit(lattice, field, row * width + x).gradient;
+            (east[x], north[x]) = (gradient.x, gradient.y);
+        }
     });
 }
 
@@ -51,16 +46,17 @@ pub fn laplacian_field(lattice: &Lattice, field: &[f64], laplacian: &mut [f64]) 
     let width = lattice.width();
     let scale = 1.0 / lattice.spacing();
     laplacian.par_chunks_mut(width).enumerate().for_each(|(row, out)| {
-        let border = |x: usize| Quadric::fit(lattice, field, row * width + x).laplacian();
-        let Some(window) = RowWindow::new(lattice, field, row) else {
-            return (0..width).for_each(|x| out[x] = border(x));
-        };
-        let cross = lattice.connectivity() == Connectivity::Four;
-        for_each_inner(width, |x| {
-            let (xx, yy) = if cross { window.cross_curvatures(x) } else { window.curvatures(x) };
-            out[x] = xx * scale * scale + yy * scale * scale;
+        let inner = RowWindow::new(lattice, field, row).map_or(0..0, |window| {
+            let to = out[1..].iter_mut();
+            match lattice.connectivity() {
+                Connectivity::Four => write_sums(window.crosses().map(curvatures), scale, to),
+                _ => write_sums(window.squares().map(curvatures), scale, to),
+            }
+            1..width - 1
         });
-        [0, width - 1].into_iter().for_each(|x| out[x] = border(x));
+        for x in (0..width).filter(|x| !inner.contains(x)) {
+            out[x] = Quadric::fit(lattice, field, row * width + x).laplacian();
+        }
     });
 }
 
@@ -70,8 +66,44 @@ fn check_length(lattice: &Lattice, lengths: &[usize]) {
     }
 }
 
-fn for_each_inner(width: usize, visit: impl FnMut(usize)) {
-    (1..width.saturating_sub(1)).for_each(visit);
+#[inline(always)]
+fn write_slopes<'a>(
+    slopes: impl Iterator<Item = (f64, f64)>,
+    scale: f64,
+    out: impl Iterator<Item = (&'a mut f64, &'a mut f64)>,
+) {
+    for ((x_slope, y_slope), (east, north)) in slopes.zip(out) {
+        *east = x_slope * scale;
+        *north = y_slope * -scale;
+    }
+}
+
+#[inline(always)]
+fn write_sums<'a>(
+    curvatures: impl Iterator<Item = (f64, f64)>,
+    scale: f64,
+    out: impl Iterator<Item = &'a mut f64>,
+) {
+    for ((xx, yy), out) in curvatures.zip(out) {
+        *out = xx * scale * scale + yy * scale * scale;
+    }
+}
+
+/// What fits along the two axes say of the middle node: see [`RowWindow`].
+#[derive(Clone, Copy)]
+struct Middle {
+    along: Line,
+    down: Line,
+}
+
+#[inline(always)]
+fn slopes(middle: Middle) -> (f64, f64) {
+    (middle.along.slope, middle.down.slope)
+}
+
+#[inline(always)]
+fn curvatures(middle: Middle) -> (f64, f64) {
+    (middle.along.curvature, middle.down.curvature)
 }
 
 /// The rows to the north and south of a row, and the row itself.
@@ -82,13 +114,14 @@ struct RowWindow<'a> {
 }
 
 impl<'a> RowWindow<'a> {
-    /// `None` where the window of a plane's row leaves the lattice, and on volumes.
+    /// `None` where the window of a plane's row leaves the lattice, on planes without inner
+    /// columns, and on volumes.
     fn new(lattice: &Lattice, field: &'a [f64], row: usize) -> Option<Self> {
-        if lattice.connectivity().is_volume() {
+        let width = lattice.width();
+        if lattice.connectivity().is_volume() || width < 3 {
             return None;
         }
         let beside = |step| lattice.offset([0, row, 0], [0, step, 0]);
-        let width = lattice.width();
         let slice = |first: usize| &field[first..first + width];
         Some(Self {
             north: slice(beside(-1)?),
@@ -97,41 +130,25 @@ impl<'a> RowWindow<'a> {
         })
     }
 
-    #[inline(always)]
-    fn lines(&self, x: usize) -> [Line; 3] {
-        [self.north, self.middle, self.south].map(|row| Line::of(row[x - 1], row[x], row[x + 1]))
+    /// Least-squares fits over 3 x 3 nodes, for every inner column.
+    fn squares(self) -> impl Iterator<Item = Middle> {
+        let windows = |row: &'a [f64]| row.array_windows().map(|&[a, b, c]| Line::of(a, b, c));
+        let rows = windows(self.north).zip(windows(self.middle)).zip(windows(self.south));
+        rows.map(|((north, middle), south)| {
+            let mean =
+                |part: fn(Line) -> f64| Line::of(part(north), part(middle), part(south)).mean;
+            let (slope, curvature) = (mean(Line::slope), mean(Line::curvature));
+            let along = Line { mean: 0.0, slope, curvature };
+            Middle { along, down: Line::of(north.mean, middle.mean, south.mean) }
+        })
     }
 
-    #[inline(always)]
-    fn slopes(&self, x: usize) -> (f64, f64) {
-        let [north, middle, south] = self.lines(x);
-        let across = Line::of(north.slope, middle.slope, south.slope).mean;
-        (across, Line::of(north.mean, middle.mean, south.mean).slope)
-    }
-
-    #[inline(always)]
-    fn curvatures(&self, x: usize) -> (f64, f64) {
-        let [north, middle, south] = self.lines(x);
-        let across = Line::of(north.curvature, middle.curvature, south.curvature).mean;
-        (across, Line::of(north.mean, middle.mean, south.mean).curvature)
-    }
-
-    #[inline(always)]
-    fn cross(&self, x: usize) -> [Line; 2] {
-        let middle = self.middle;
-        let along = Line::of(middle[x - 1], middle[x], middle[x + 1]);
-        [along, Line::of(self.north[x], middle[x], self.south[x])]
-    }
-
-    #[inline(always)]
-    fn cross_slopes(&self, x: usize) -> (f64, f64) {
-        let [along, down] = self.cross(x);
-        (along.slope, down.slope)
-    }
-
-    #[inline(always)]
-    fn cross_curvatures(&self, x: usize) -> (f64, f64) {
-        let [along, down] = self.cross(x);
-        (along.curvature, down.curvature)
+    /// Parabolas through the node along both axes, for every inner column.
+    fn crosses(self) -> impl Iterator<Item = Middle> {
+        let beside = self.north[1..].iter().zip(&self.south[1..]);
+        self.middle.array_windows().zip(beside).map(|(&[a, b, c], (&north, &south))| Middle {
+            along: Line::of(a, b, c),
+            down: Line::of(north, b, south),
+        })
     }
 }

@@ -41,6 +41,11 @@ impl Axis {
         Self { offsets, count, off_centre, own: coordinate * stride }
     }
 
+    /// Number of coordinates that the window covers.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// Index offset of one of the window's coordinates.
     pub fn at(&self, index: usize) -> usize {
         self.offsets[index]
@@ -70,7 +75,7 @@ impl Axis {
 }
 
 /// What a least-squares fit says of values along a line, in steps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Line {
     /// Average of the values.
     pub mean: f64,

@@ -81,7 +81,13 @@ impl Quadric {
         let [x_axis, y_axis, z_axis] = axes;
         // Each fit turns the values along one axis into mean, slope and curvature.
         let along_x = |y, z| x_axis.fit(|x| field[x_axis.at(x) + y_axis.at(y) + z_axis.at(z)]);
-        let along_y = |z: usize, part: fn(Line) -> f64| y_axis.fit(|y| part(along_x(y, z)));
+        let mut rows = [[Line::default(); 3]; 3];
+        for (z, rows) in rows.iter_mut().enumerate().take(z_axis.count()) {
+            for (y, row) in rows.iter_mut().enumerate().take(y_axis.count()) {
+                *row = along_x(y, z);
+            }
+        }
+        let along_y = |z: usize, part: fn(Line) -> f64| y_axis.fit(|y| part(rows[z][y]));
         let along_z = |first: fn(Line) -> f64, second: fn(Line) -> f64| {
             z_axis.fit(|z| second(along_y(z, first)))
         };
