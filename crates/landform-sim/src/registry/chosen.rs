@@ -10,7 +10,7 @@ use serde::{Deserialize, forward_to_deserialize_any};
 
 use super::Registry;
 use super::kinds::Registered;
-use crate::text::nearest;
+use crate::text::{Diagnostic, nearest, one_of};
 
 thread_local! {
     /// The registry that scenario files are read against on this thread. It is handed over here
@@ -90,11 +90,12 @@ impl<'de, T: ?Sized + Registered> Visitor<'de> for EntryName<'_, T> {
     }
 }
 
-fn unknown<T: ?Sized + Registered>(registry: &Registry, name: &str) -> String {
+/// The refusal of an unknown name; its parts are put on lines of their own when it is shown.
+fn unknown<T: ?Sized + Registered>(registry: &Registry, name: &str) -> Diagnostic {
     let names = T::kind(registry).names();
-    let guess = nearest(name, names.iter().copied())
-        .map_or(String::new(), |nearest| format!("; did you mean `{nearest}`?"));
-    format!("unknown {} `{name}`{guess} (known: {})", T::WHAT, names.join(", "))
+    Diagnostic::new(format!("unknown {} `{name}`", T::WHAT))
+        .expected(one_of(names.iter().copied()))
+        .did_you_mean(nearest(name, names.iter().copied()))
 }
 
 /// Hands the fields of an enum variant to the reader of a struct.

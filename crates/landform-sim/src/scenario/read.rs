@@ -74,7 +74,9 @@ impl ScenarioSource {
     /// # Errors
     /// Messages with file, line and column, what was expected and what to do.
     pub fn parse(&self, registry: &Arc<Registry>) -> Result<Scenario, String> {
-        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        let options = ron::Options::default().with_default_extension(
+            Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES,
+        );
         let scenario: Scenario = reading(registry, || options.from_str(self.source.text()))
             .map_err(|error| ron_diagnostic(&self.source, &error).render(&self.source))?;
         let problems = scenario.problems();

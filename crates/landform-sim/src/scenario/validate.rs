@@ -1,5 +1,7 @@
 //! Checks of a scenario that need no domain: ranges, stages, stop rules, repeated names.
 
+use std::path::Path;
+
 use super::{Scenario, StageEntry};
 use crate::parameters::Problem;
 use crate::registry::{AnyParameters, Chosen};
@@ -33,6 +35,17 @@ impl Scenario {
             problems.push(Problem::new("measure_every", message, "at least 1"));
         }
         problems
+    }
+}
+
+impl Scenario {
+    /// Checks everything that can be checked without running: reads the files of the domain
+    /// and checks the processes against it, but allocates no nodes.
+    ///
+    /// # Errors
+    /// The first [`Problem`], with the full path of its parameter.
+    pub fn check(&self, folder: &Path) -> Result<(), Problem> {
+        crate::simulation::check(self, folder).map(|_| ())
     }
 }
 

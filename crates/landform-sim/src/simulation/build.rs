@@ -56,27 +56,11 @@ impl Simulation {
     /// # Errors
     /// The [`Problem`] holds the full path of the parameter in the scenario.
     pub fn new(scenario: Scenario, folder: &Path, limits: Limits) -> Result<Self, Problem> {
-        let declarations: Vec<Vec<Declaration>> = scenario
-            .stages
-            .iter()
-            .map(|stage| stage.processes.iter().map(|each| each.value.declaration()).collect())
-            .collect();
-        let fields = collect_fields(&declarations)?;
-        let flat: Vec<Declaration> = declarations.into_iter().flatten().collect();
-        let bytes = memory::bytes_per_node(fields.bytes_per_node(), &flat);
-        if let Some(nodes) = scenario.domain.value.nodes() {
-            memory::check(nodes, bytes, limits.memory_bytes)?;
-        }
-        let domain =
-            scenario.domain.value.make(folder).map_err(|problem| below("domain", problem))?;
-        memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
-        check_processes(&scenario.stages, &domain.lattice)?;
-        check_names(&scenario, &fields, &flat)?;
-
+        let Plan { domain, fields, uses } = plan(&scenario, folder, limits)?;
         let mut app = App::empty();
         let world = app.world_mut();
         fields.declare_all(world);
-        let groups = collect_groups(&flat);
+        let groups = collect_groups(&uses);
         groups.iter().for_each(|group| (group.declare)(world));
         spawn_nodes(world, domain.lattice.clone());
         groups.iter().for_each(|group| (group.make)(world, domain.lattice.node_count()));
@@ -113,6 +97,37 @@ impl Simulation {
     pub fn series(&self) -> &Series {
         &self.series
     }
+}
+
+/// Everything that is settled before nodes are made.
+pub(crate) struct Plan {
+    domain: Domain,
+    fields: FieldTable,
+    uses: Vec<Declaration>,
+}
+
+/// Checks a scenario without making nodes.
+pub(crate) fn check(scenario: &Scenario, folder: &Path) -> Result<Plan, Problem> {
+    plan(scenario, folder, Limits { memory_bytes: u64::MAX })
+}
+
+/// Makes the domain and checks everything against it, within the limits.
+fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Problem> {
+    let declare = |stage: &StageEntry| -> Vec<Declaration> {
+        stage.processes.iter().map(|process| process.value.declaration()).collect()
+    };
+    let declarations: Vec<Vec<Declaration>> = scenario.stages.iter().map(declare).collect();
+    let fields = collect_fields(&declarations)?;
+    let uses: Vec<Declaration> = declarations.into_iter().flatten().collect();
+    let bytes = memory::bytes_per_node(fields.bytes_per_node(), &uses);
+    if let Some(nodes) = scenario.domain.value.nodes() {
+        memory::check(nodes, bytes, limits.memory_bytes)?;
+    }
+    let domain = scenario.domain.value.make(folder).map_err(|problem| below("domain", problem))?;
+    memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
+    check_processes(&scenario.stages, &domain.lattice)?;
+    check_names(scenario, &fields, &uses)?;
+    Ok(Plan { domain, fields, uses })
 }
 
 /// All fields that the processes name, and the surface when there is a bed or sand.

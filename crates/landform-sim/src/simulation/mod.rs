@@ -9,6 +9,7 @@ mod report;
 mod run;
 mod stage;
 
+pub(crate) use build::check;
 pub use build::{Limits, Simulation};
 pub use error::RunError;
 pub use progress::{Progress, ProgressHook};

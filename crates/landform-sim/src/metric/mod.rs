@@ -1,5 +1,9 @@
 //! Metrics: numbers measured while a run goes on, and the series they form.
 
+mod statistic;
+
+pub use statistic::{FieldStatistic, Statistic};
+
 use crate::parameters::{Parameters, Problem};
 use crate::snapshot::Snapshot;
 

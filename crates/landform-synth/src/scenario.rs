@@ -1,0 +1,49 @@
+//! The generators as initial conditions of scenarios.
+
+use landform_sim::initial::InitialContext;
+use landform_sim::parameters::Problem;
+use landform_sim::registry::Registry;
+
+use crate::{
+    Cone, GaussianHill, InitialCondition, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
+    SynthError, Uniform, WhiteNoise,
+};
+
+/// Makes scenarios know the generators by their names.
+macro_rules! scenario_names {
+    ($($generator:ident),*) => {
+        $(impl landform_sim::initial::InitialCondition for $generator {
+            const NAME: &'static str = stringify!($generator);
+
+            fn values(&self, context: &InitialContext<'_>) -> Result<Vec<f64>, Problem> {
+                self.generate(&context.domain.lattice, context.seed).map_err(refusal)
+            }
+        })*
+
+        /// Registers the initial conditions of this crate.
+        pub fn register(registry: &mut Registry) {
+            registry$(.initial::<$generator>())*;
+        }
+    };
+}
+
+scenario_names!(
+    Uniform,
+    WhiteNoise,
+    SmoothNoise,
+    SpectralFbm,
+    Ramp,
+    Sinusoid,
+    Ridge,
+    Cone,
+    GaussianHill
+);
+
+/// A refusal by a generator, at the parameter it is about.
+fn refusal(error: SynthError) -> Problem {
+    let parameter = match &error {
+        SynthError::OutOfRange { parameter, .. } => *parameter,
+        _ => "",
+    };
+    Problem::new(parameter, error.to_string(), "")
+}

@@ -1,0 +1,103 @@
+//! An animation of a field.
+
+use std::path::{Path, PathBuf};
+
+use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use landform_view::animation;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::field_file;
+use super::look::{Look, picture_text, problem};
+
+/// An animation of a field: APNG (`.png`, `.apng`) or GIF, a frame every so many iterations.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Animation {
+    /// File name below the output folder; its extension chooses the format.
+    pub file: PathBuf,
+    /// Name of the field.
+    pub field: String,
+    /// How it is drawn. Without a range the colours follow each frame's own heights.
+    pub look: Look,
+    /// Iterations between two frames.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// How long each frame stays.
+    #[schemars(range(min = 10, max = 60000), extend("x-unit" = "ms"))]
+    pub delay_ms: u32,
+}
+
+impl Default for Animation {
+    fn default() -> Self {
+        Self {
+            file: "animation.apng".into(),
+            field: "surface".to_owned(),
+            look: Look::default(),
+            every: 1,
+            delay_ms: 100,
+        }
+    }
+}
+
+impl Output for Animation {
+    const NAME: &'static str = "Animation";
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn open(&self) -> Box<dyn Sink> {
+        Box::new(AnimationSink { settings: self.clone(), encoder: None })
+    }
+}
+
+struct AnimationSink {
+    settings: Animation,
+    encoder: Option<animation::Animation>,
+}
+
+impl Sink for AnimationSink {
+    fn observe(
+        &mut self,
+        moment: Moment,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Problem> {
+        match moment {
+            Moment::Start => {
+                let path = field_file::below(folder, &self.settings.file)?;
+                let text = picture_text(snapshot, &self.settings.field);
+                let text: Vec<_> = text.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
+                let made = animation::Animation::create(&path, self.settings.delay_ms, &text);
+                self.encoder = Some(made.map_err(|error| problem(&error))?);
+                self.frame(snapshot)?;
+            }
+            Moment::Iteration if snapshot.clock().tick.is_multiple_of(self.settings.every) => {
+                self.frame(snapshot)?;
+            }
+            Moment::Iteration | Moment::StageEnd => {}
+            Moment::End => {
+                let Some(encoder) = self.encoder.take() else { return Ok(Vec::new()) };
+                encoder.finish().map_err(|error| problem(&error))?;
+                let file = self.settings.file.clone();
+                return Ok(vec![OutputFile { file, kind: "animation".to_owned() }]);
+            }
+        }
+        Ok(Vec::new())
+    }
+}
+
+impl AnimationSink {
+    fn frame(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+        let (values, entry) = field_file::values(snapshot, &self.settings.field)?;
+        let image = self.settings.look.draw(snapshot.lattice(), &values, entry.unit);
+        let image = image.map_err(|error| problem(&error))?;
+        match &mut self.encoder {
+            Some(encoder) => encoder.add(&image).map_err(|error| problem(&error)),
+            None => Ok(()),
+        }
+    }
+}

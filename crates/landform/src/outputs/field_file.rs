@@ -1,0 +1,123 @@
+//! A field as a raster file, and what outputs of fields have in common.
+
+use std::path::{Component, Path, PathBuf};
+
+use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
+use landform_sim::field::FieldEntry;
+use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::When;
+
+/// A field as a raster: GeoTIFF (`.tif`), ESRI ASCII (`.asc`), NumPy (`.npy`), 16-bit grey
+/// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FieldFile {
+    /// File name below the output folder; its extension chooses the format.
+    pub file: PathBuf,
+    /// Name of the field.
+    pub field: String,
+    /// When it is written.
+    pub when: When,
+}
+
+impl Default for FieldFile {
+    fn default() -> Self {
+        Self { file: "surface.tif".into(), field: "surface".to_owned(), when: When::End }
+    }
+}
+
+impl Output for FieldFile {
+    const NAME: &'static str = "FieldFile";
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn open(&self) -> Box<dyn Sink> {
+        Box::new(self.clone())
+    }
+}
+
+impl Sink for FieldFile {
+    fn observe(
+        &mut self,
+        moment: Moment,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Problem> {
+        if !self.when.is_due(moment, snapshot) {
+            return Ok(Vec::new());
+        }
+        let (values, entry) = values(snapshot, &self.field)?;
+        let file = self.when.file_name(&self.file, snapshot);
+        let path = below(folder, &file)?;
+        let raster = raster_of(snapshot, values);
+        write_raster(path, &raster, &metadata(snapshot, entry), IfExists::Replace)
+            .map_err(|error| Problem::new("file", error.to_string(), ""))?;
+        Ok(vec![OutputFile { file, kind: "raster".to_owned() }])
+    }
+}
+
+/// Values of a field and what is known of it.
+pub(super) fn values<'a>(
+    snapshot: &Snapshot<'a>,
+    name: &str,
+) -> Result<(Vec<f64>, &'a FieldEntry), Problem> {
+    let unknown = |error: landform_sim::field::UnknownField| {
+        Problem::new("field", error.to_string(), "a field of the run")
+    };
+    Ok((snapshot.field(name).map_err(unknown)?, snapshot.entry(name).map_err(unknown)?))
+}
+
+/// The path of an output below its folder, whose parent folders are made. Paths that lead out
+/// of the folder are refused.
+pub(super) fn below(folder: &Path, file: &Path) -> Result<PathBuf, Problem> {
+    let inside = file.components().all(|part| matches!(part, Component::Normal(_)));
+    if file.file_name().is_none() || !inside {
+        let message = format!("`{}` leads out of the output folder", file.display());
+        return Err(Problem::new("file", message, "a name below the output folder"));
+    }
+    let path = folder.join(file);
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(|error| {
+            Problem::new("file", format!("cannot make {}: {error}", parent.display()), "")
+        })?;
+    }
+    Ok(path)
+}
+
+/// The values of a field of the run as a raster in its place on Earth, or at the origin.
+pub(crate) fn raster_of(snapshot: &Snapshot<'_>, values: Vec<f64>) -> Raster {
+    let lattice = snapshot.lattice();
+    let [width, height, _] = lattice.size();
+    let mut raster = Raster::local(width, height, lattice.spacing(), values);
+    let place = snapshot.domain().georeference.as_ref();
+    if let Some(place) = place.and_then(|place| place.downcast_ref::<Georeference>()) {
+        raster.georeference = Some(place.clone());
+    }
+    raster
+}
+
+/// What goes with the values of a field into a file.
+pub(crate) fn metadata(snapshot: &Snapshot<'_>, entry: &FieldEntry) -> Metadata {
+    let clock = snapshot.clock();
+    let mut metadata = Metadata {
+        title: Some(snapshot.title().to_owned()),
+        field: Some(entry.name.to_owned()),
+        unit: Some(entry.unit.to_owned()),
+        spacing_m: Some(snapshot.lattice().spacing()),
+        seed: Some(clock.seed),
+        ..Metadata::default()
+    };
+    let notes = [
+        ("iteration", clock.tick.to_string()),
+        ("software", concat!("landform ", env!("CARGO_PKG_VERSION")).to_owned()),
+    ];
+    metadata.notes.extend(notes.map(|(key, value)| (key.to_owned(), value)));
+    metadata
+}

@@ -1,0 +1,108 @@
+//! Panels side by side: a field at the start and at the end of each stage, as in a figure.
+
+use std::path::{Path, PathBuf};
+
+use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use landform_view::montage::{MontageOptions, Panel, Row, panels};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::field_file;
+use super::look::{Look, picture_text, problem, write_picture};
+
+/// One figure of panels side by side: a field before the first iteration and at the end of each
+/// stage, all in the same colours.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Panels {
+    /// File name below the output folder.
+    pub file: PathBuf,
+    /// Name of the field.
+    pub field: String,
+    /// How it is drawn.
+    pub look: Look,
+    /// Texts below the panels, first the one of the start; stage names where they are missing.
+    pub captions: Vec<String>,
+    /// Whether all panels share the range of colours of the last one.
+    pub same_colours: bool,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self {
+            file: "panels.png".into(),
+            field: "surface".to_owned(),
+            look: Look::default(),
+            captions: Vec::new(),
+            same_colours: true,
+        }
+    }
+}
+
+impl Output for Panels {
+    const NAME: &'static str = "Panels";
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn open(&self) -> Box<dyn Sink> {
+        Box::new(PanelSink { settings: self.clone(), states: Vec::new() })
+    }
+}
+
+/// The states seen so far; they are drawn together because they may share colours.
+struct PanelSink {
+    settings: Panels,
+    states: Vec<(String, Vec<f64>)>,
+}
+
+impl Sink for PanelSink {
+    fn observe(
+        &mut self,
+        moment: Moment,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Problem> {
+        match moment {
+            Moment::Start | Moment::StageEnd => {
+                let (values, _) = field_file::values(snapshot, &self.settings.field)?;
+                let caption = self.settings.captions.get(self.states.len()).cloned();
+                let name = match moment {
+                    Moment::Start => "initial",
+                    _ => snapshot.stage_name(),
+                };
+                self.states.push((caption.unwrap_or_else(|| name.to_owned()), values));
+                Ok(Vec::new())
+            }
+            Moment::Iteration => Ok(Vec::new()),
+            Moment::End => self.draw(snapshot, folder),
+        }
+    }
+}
+
+impl PanelSink {
+    fn draw(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {
+        let settings = &self.settings;
+        let (_, entry) = field_file::values(snapshot, &settings.field)?;
+        let mut look = settings.look.clone();
+        if let (true, None, Some((_, last))) =
+            (settings.same_colours, look.range(), self.states.last())
+        {
+            let [low, high] = landform_view::flat::finite_range(last);
+            look = look.with_range((low, high));
+        }
+        let mut row = Row { heading: String::new(), panels: Vec::new() };
+        for (caption, values) in &self.states {
+            let image = look.draw(snapshot.lattice(), values, entry.unit);
+            let image = image.map_err(|error| problem(&error))?;
+            row.panels.push(Panel { image, caption: caption.clone() });
+        }
+        let figure = panels(&[row], &MontageOptions::default()).map_err(|error| problem(&error))?;
+        let path = field_file::below(folder, &settings.file)?;
+        write_picture(&figure, &path, &picture_text(snapshot, &settings.field))?;
+        Ok(vec![OutputFile { file: settings.file.clone(), kind: "picture".to_owned() }])
+    }
+}

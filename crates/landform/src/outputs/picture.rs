@@ -1,0 +1,69 @@
+//! A picture of a field.
+
+use std::path::{Path, PathBuf};
+
+use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::look::{Look, picture_text, problem, write_picture};
+use super::{When, field_file};
+
+/// A picture of a field as PNG, with title, scale and seed in its text entries.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Picture {
+    /// File name below the output folder.
+    pub file: PathBuf,
+    /// Name of the field.
+    pub field: String,
+    /// How it is drawn.
+    pub look: Look,
+    /// When it is drawn.
+    pub when: When,
+}
+
+impl Default for Picture {
+    fn default() -> Self {
+        Self {
+            file: "picture.png".into(),
+            field: "surface".to_owned(),
+            look: Look::default(),
+            when: When::End,
+        }
+    }
+}
+
+impl Output for Picture {
+    const NAME: &'static str = "Picture";
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn open(&self) -> Box<dyn Sink> {
+        Box::new(self.clone())
+    }
+}
+
+impl Sink for Picture {
+    fn observe(
+        &mut self,
+        moment: Moment,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Problem> {
+        if !self.when.is_due(moment, snapshot) {
+            return Ok(Vec::new());
+        }
+        let (values, entry) = field_file::values(snapshot, &self.field)?;
+        let image = self.look.draw(snapshot.lattice(), &values, entry.unit);
+        let file = self.when.file_name(&self.file, snapshot);
+        let path = field_file::below(folder, &file)?;
+        let text = picture_text(snapshot, &self.field);
+        write_picture(&image.map_err(|error| problem(&error))?, &path, &text)?;
+        Ok(vec![OutputFile { file, kind: "picture".to_owned() }])
+    }
+}

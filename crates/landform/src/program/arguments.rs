@@ -1,0 +1,167 @@
+//! What may be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Agents that erode landforms: run scenarios, look at the results.
+#[derive(Parser)]
+#[command(name = "landform", version, arg_required_else_help = true, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "Examples:
+  landform run scenarios/gallery/dunes.ron
+  landform run scenarios/gallery/dunes.ron -o out/windy --seed 7 --set stages[0].processes.Werner.wind_strength_m=200
+  landform run scenarios/gallery/dunes_on_dem.ron --set domain.path=my_dem.tif
+  landform describe Werner
+  landform export out/dunes --field surface --to dunes.tif
+  landform view out/dunes -o dunes.png --look perspective --bearing 120";
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Run a scenario: pictures, rasters, series and report.json go into a folder
+    Run(RunArguments),
+    /// Read and check scenarios without running them
+    Check(CheckArguments),
+    /// List what scenarios may name
+    List {
+        /// Only this kind
+        #[arg(value_enum)]
+        kind: Option<KindName>,
+    },
+    /// Explain a process, domain, initial condition, metric or output with all its parameters
+    Describe {
+        /// Its name
+        name: String,
+        /// Print a JSON schema instead
+        #[arg(long)]
+        json: bool,
+    },
+    /// Write a field of a finished run as a raster or a mesh
+    #[command(
+        after_help = "The extension of FILE chooses the format: .npy .tif .asc .png (16-bit \
+        grey) .raw (32-bit floats), .obj .ply .glb (meshes)\n\nExample:\n  \
+        landform export out/dunes --field surface --to dunes.glb"
+    )]
+    Export(ExportArguments),
+    /// Draw a field of a finished run, or a raster file
+    #[command(after_help = "Examples:\n  landform view out/dunes -o dunes.png\n  \
+        landform view dem.tif -o dem.png --look perspective --colours batlow")]
+    View(ViewArguments),
+    /// Print a completion script for a shell
+    #[command(
+        after_help = "Example:\n  landform completions bash > ~/.local/share/bash-completion/completions/landform"
+    )]
+    Completions {
+        /// The shell
+        #[arg(value_enum)]
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    /// The scenario file (*.ron)
+    pub scenario: PathBuf,
+    /// Output folder; without it a new one below ./out, named after the scenario
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Seed of all random numbers, instead of the scenario's
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Number of threads; all cores without it. The results are the same for any number
+    #[arg(long)]
+    pub threads: Option<usize>,
+    /// Replace a value of the scenario, as often as needed: `stages[0].processes.Werner.slab_m=2.5`
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Write into an existing folder; files of the same names are replaced
+    #[arg(long)]
+    pub force: bool,
+    /// Largest memory that the run may need; without it most of what is free
+    #[arg(long, value_name = "GIB")]
+    pub memory_limit_gib: Option<f64>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    /// Scenario files
+    #[arg(required = true)]
+    pub scenarios: Vec<PathBuf>,
+    /// Replace a value in each of them
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+#[derive(Clone, Copy, ValueEnum, PartialEq, Eq)]
+pub(crate) enum KindName {
+    Domains,
+    Initial,
+    Processes,
+    Metrics,
+    Outputs,
+}
+
+#[derive(Args)]
+pub(crate) struct ExportArguments {
+    /// Output folder of a run
+    pub folder: PathBuf,
+    /// Name of the field
+    #[arg(long)]
+    pub field: String,
+    /// File to write
+    #[arg(long, value_name = "FILE")]
+    pub to: PathBuf,
+    /// Replace the file if it is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum LookName {
+    Relief,
+    Perspective,
+    Flat,
+}
+
+#[derive(Args)]
+pub(crate) struct ViewArguments {
+    /// Output folder of a run, or a raster file
+    pub source: PathBuf,
+    /// Picture to write (*.png)
+    #[arg(short, long)]
+    pub output: PathBuf,
+    /// Name of the field, when the source is a folder
+    #[arg(long, default_value = "surface")]
+    pub field: String,
+    /// How it is drawn
+    #[arg(long, value_enum, default_value = "relief")]
+    pub look: LookName,
+    /// Name of the colour map
+    #[arg(long)]
+    pub colours: Option<String>,
+    /// Compass bearing towards which the camera looks, in degrees
+    #[arg(long)]
+    pub bearing: Option<f64>,
+    /// How far the camera looks down, in degrees
+    #[arg(long)]
+    pub pitch: Option<f64>,
+    /// Nearer to the middle of the field
+    #[arg(long)]
+    pub zoom: Option<f64>,
+    /// Factor of heights
+    #[arg(long)]
+    pub exaggeration: Option<f64>,
+    /// Elevation of a water surface in metres
+    #[arg(long)]
+    pub water: Option<f64>,
+    /// Replace the picture if it is there
+    #[arg(long)]
+    pub force: bool,
+}

@@ -1,0 +1,27 @@
+//! `landform check`: reads scenarios and builds their domains without running them.
+
+use std::sync::Arc;
+
+use landform_sim::registry::Registry;
+
+use super::arguments::CheckArguments;
+use super::{Failure, Outcome, run};
+
+/// Checks every scenario and reports all that are wrong.
+pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Outcome {
+    let mut messages = Vec::new();
+    for path in &arguments.scenarios {
+        let checked = run::open(path, &arguments.set).and_then(|source| {
+            let scenario = source.parse(registry)?;
+            scenario.check(source.folder()).map_err(|problem| source.render(&problem))
+        });
+        match checked {
+            Ok(()) => println!("{}: good", path.display()),
+            Err(message) => messages.push(message),
+        }
+    }
+    match messages.is_empty() {
+        true => Ok(()),
+        false => Err(Failure::Refused(messages.join("\n"))),
+    }
+}

@@ -1,0 +1,61 @@
+//! `landform export`: a field of a finished run as a raster or a mesh.
+
+use std::path::Path;
+
+use landform_io::{IfExists, RasterFile, ReadLimits, read_raster_file, write_raster};
+use landform_view::ColourMap;
+
+use super::arguments::ExportArguments;
+use super::{Failure, Outcome};
+use crate::outputs::write_mesh;
+
+/// Writes the field of the arguments.
+pub(super) fn export(arguments: &ExportArguments) -> Outcome {
+    let file = field_of(&arguments.folder, &arguments.field).map_err(Failure::Refused)?;
+    let if_exists = match arguments.force {
+        true => IfExists::Replace,
+        false => IfExists::Refuse,
+    };
+    let extension = arguments.to.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let written = match extension.as_str() {
+        "obj" | "ply" | "glb" | "stl" => {
+            let colours =
+                ColourMap::named("sand").map_err(|error| Failure::Refused(error.to_string()))?;
+            write_mesh(&arguments.to, &file.raster, &file.metadata, colours, if_exists)
+        }
+        _ => write_raster(&arguments.to, &file.raster, &file.metadata, if_exists),
+    };
+    written.map_err(|error| Failure::Refused(error.to_string()))?;
+    println!("{}", arguments.to.display());
+    Ok(())
+}
+
+/// The field of a run's folder.
+pub(super) fn field_of(folder: &Path, field: &str) -> Result<RasterFile, String> {
+    let fields = folder.join("fields");
+    let path = fields.join(format!("{field}.npy"));
+    if !path.is_file() {
+        let known = known_fields(&fields);
+        return Err(match known.is_empty() {
+            true => format!("{} is not the output folder of a run", folder.display()),
+            false => format!(
+                "{} has no field `{field}`; there are: {}",
+                folder.display(),
+                known.join(", ")
+            ),
+        });
+    }
+    read_raster_file(&path, &ReadLimits::default()).map_err(|error| error.to_string())
+}
+
+/// Names of the fields in a folder, in order.
+fn known_fields(fields: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(fields).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "npy"))
+        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
+        .collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,61 @@
+//! Output folders of runs: made once, never overwritten without being asked.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use landform_io::{IfExists, write_atomically};
+use serde::Serialize;
+
+/// Makes the output folder of a run.
+///
+/// An existing folder is refused unless it is empty or `force` is given; without a name a new
+/// folder below `out` is made.
+pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<PathBuf, String> {
+    let folder = match asked {
+        Some(folder) => folder.to_owned(),
+        None => fresh(stem),
+    };
+    let shown = folder.display();
+    if folder.is_file() {
+        return Err(format!("the output folder {shown} is a file; name another with -o"));
+    }
+    let occupied = fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied && !force {
+        return Err(format!(
+            "the output folder {shown} exists and is not empty; name another with -o, or use \
+             --force to replace files of the same names"
+        ));
+    }
+    fs::create_dir_all(&folder)
+        .map_err(|error| format!("cannot make the output folder {shown}: {error}"))?;
+    let probe = folder.join(".landform-probe.tmp");
+    fs::write(&probe, b"")
+        .and_then(|()| fs::remove_file(&probe))
+        .map_err(|error| format!("cannot write into the output folder {shown}: {error}"))?;
+    Ok(folder)
+}
+
+/// The first of `out/STEM`, `out/STEM-2`, ... that does not exist.
+fn fresh(stem: &str) -> PathBuf {
+    let first = Path::new("out").join(stem);
+    if !first.exists() {
+        return first;
+    }
+    (2_u32..)
+        .map(|number| Path::new("out").join(format!("{stem}-{number}")))
+        .find(|folder| !folder.exists())
+        .unwrap_or(first)
+}
+
+/// Writes text into a file of the folder.
+pub(super) fn write_text(path: &Path, text: &str) -> Result<(), String> {
+    use std::io::Write;
+    write_atomically(path, IfExists::Replace, |file| file.write_all(text.as_bytes()))
+        .map_err(|error| error.to_string())
+}
+
+/// Writes a value as JSON into a file of the folder.
+pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), String> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| error.to_string())?;
+    write_text(path, &(text + "\n"))
+}

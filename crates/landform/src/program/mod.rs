@@ -1,0 +1,90 @@
+//! The command line.
+
+mod arguments;
+mod check;
+mod describe;
+mod export;
+mod folder;
+mod interrupt;
+mod list;
+mod memory;
+mod progress_bar;
+mod run;
+mod view;
+
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::{CommandFactory, Parser};
+use landform_sim::registry::Registry;
+
+use arguments::{Arguments, Command};
+
+/// How a command ended without doing what it was asked.
+pub(crate) enum Failure {
+    /// The input was refused: exit status 2.
+    Refused(String),
+    /// The run failed: exit status 1.
+    Failed(String),
+    /// The user interrupted: exit status 130.
+    Interrupted(String),
+}
+
+/// What a command returns.
+pub(crate) type Outcome = Result<(), Failure>;
+
+/// The program `landform`, to which other programs add their own processes.
+pub struct Program {
+    registry: Registry,
+}
+
+impl Default for Program {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Program {
+    /// The program with everything that is built in.
+    pub fn new() -> Self {
+        Self { registry: crate::registry() }
+    }
+
+    /// Adds to what scenarios may name.
+    #[must_use]
+    pub fn register(mut self, add: impl FnOnce(&mut Registry)) -> Self {
+        add(&mut self.registry);
+        self
+    }
+
+    /// Does what the command line says. Exit status: 0 done, 1 the run failed, 2 the input was
+    /// refused, 130 interrupted.
+    pub fn run(self) -> ExitCode {
+        let arguments = Arguments::parse();
+        let registry = Arc::new(self.registry);
+        let outcome = match arguments.command {
+            Command::Run(arguments) => run::run(&arguments, &registry),
+            Command::Check(arguments) => check::check(&arguments, &registry),
+            Command::List { kind } => list::list(kind, &registry),
+            Command::Describe { name, json } => describe::describe(&name, json, &registry),
+            Command::Export(arguments) => export::export(&arguments),
+            Command::View(arguments) => view::view(&arguments),
+            Command::Completions { shell } => {
+                let mut command = Arguments::command();
+                clap_complete::generate(shell, &mut command, "landform", &mut std::io::stdout());
+                Ok(())
+            }
+        };
+        let (message, code) = match outcome {
+            Ok(()) => return ExitCode::SUCCESS,
+            Err(Failure::Refused(message)) => (message, 2),
+            Err(Failure::Failed(message)) => (message, 1),
+            Err(Failure::Interrupted(message)) => (message, 130),
+        };
+        match message.starts_with("error") {
+            true => eprintln!("{message}"),
+            false => eprintln!("error: {message}"),
+        }
+        ExitCode::from(code)
+    }
+}

@@ -1,0 +1,61 @@
+//! The progress bar.
+
+use std::ops::ControlFlow;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use landform_sim::simulation::{Progress, ProgressHook};
+
+use super::interrupt;
+
+/// Shows where a run stands on standard error, with the time that is left.
+pub(super) struct Bar {
+    bar: ProgressBar,
+    quiet: bool,
+}
+
+impl Bar {
+    pub(super) fn new(quiet: bool) -> Self {
+        Self { bar: ProgressBar::hidden(), quiet }
+    }
+
+    pub(super) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    fn begin_stage(&mut self, progress: &Progress<'_>) {
+        if self.quiet {
+            return;
+        }
+        self.bar.finish_and_clear();
+        let (bar, template) = match progress.iterations {
+            Some(iterations) => (ProgressBar::new(iterations), KNOWN),
+            None => (ProgressBar::no_length(), UNKNOWN),
+        };
+        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        let stage = format!("stage {}/{}", progress.stage + 1, progress.stages);
+        bar.set_prefix(match progress.stage_name {
+            "" => stage,
+            name => format!("{stage} {name}"),
+        });
+        self.bar = bar;
+    }
+}
+
+const KNOWN: &str = "{prefix} [{bar:36}] {pos}/{len} iterations, {eta} left";
+const UNKNOWN: &str = "{prefix} {spinner} {pos} iterations, {elapsed}";
+
+impl ProgressHook for Bar {
+    fn progress(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
+        match progress.iteration {
+            0 => self.begin_stage(progress),
+            iteration => self.bar.set_position(iteration),
+        }
+        match interrupt::asked() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! `landform run`: a scenario from file to output folder.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use landform_io::{IfExists, write_raster};
+use landform_sim::output::OutputFile;
+use landform_sim::registry::Registry;
+use landform_sim::scenario::ScenarioSource;
+use landform_sim::simulation::{Limits, Report, RunError, Simulation};
+
+use super::arguments::RunArguments;
+use super::progress_bar::Bar;
+use super::{Failure, Outcome, folder, interrupt, memory};
+use crate::outputs::{metadata, raster_of};
+
+/// Runs the scenario of the arguments.
+pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome {
+    let source = open(&arguments.scenario, &arguments.set).map_err(Failure::Refused)?;
+    let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(Failure::Refused)?;
+    let pool = pool(arguments.threads).map_err(Failure::Refused)?;
+    interrupt::watch();
+    pool.install(|| {
+        let mut scenario = source.parse(registry).map_err(Failure::Refused)?;
+        scenario.seed = arguments.seed.unwrap_or(scenario.seed);
+        let mut simulation = Simulation::new(scenario, source.folder(), Limits { memory_bytes })
+            .map_err(|problem| Failure::Refused(source.render(&problem)))?;
+        let stem = arguments.scenario.file_stem().unwrap_or_default().to_string_lossy();
+        let folder = folder::make(arguments.output.as_deref(), &stem, arguments.force)
+            .map_err(Failure::Refused)?;
+        let mut bar = Bar::new(arguments.quiet);
+        let mut report = Report::default();
+        let result = simulation.run(&folder, &mut bar, &mut report);
+        bar.finish();
+        finish(&simulation, &source, &folder, &mut report).map_err(Failure::Failed)?;
+        result.map_err(|error| failure(error, &folder))?;
+        print!("{}", summary(&report, &folder));
+        Ok(())
+    })
+}
+
+/// Opens a scenario and makes the edits of the command line.
+pub(super) fn open(path: &Path, edits: &[String]) -> Result<ScenarioSource, String> {
+    let mut source = ScenarioSource::open(path)?;
+    for edit in edits {
+        let (path, value) = edit.split_once('=').ok_or_else(|| {
+            format!("--set {edit}: write it as PATH=VALUE, domain.spacing_m=5.0 say")
+        })?;
+        source.set(path, value)?;
+    }
+    Ok(source)
+}
+
+fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, String> {
+    if threads.is_some_and(|threads| !(1..=1024).contains(&threads)) {
+        return Err("--threads must be from 1 to 1024".to_owned());
+    }
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .map_err(|error| format!("cannot start the threads: {error}"))
+}
+
+fn failure(error: RunError, folder: &Path) -> Failure {
+    let message = format!("{error}\nwhat was done until then is in {}", folder.display());
+    match error {
+        RunError::Interrupted { .. } => Failure::Interrupted(message),
+        _ => Failure::Failed(message),
+    }
+}
+
+/// Writes what every run leaves: the final fields, the series, the scenario and the report.
+fn finish(
+    simulation: &Simulation,
+    source: &ScenarioSource,
+    folder: &Path,
+    report: &mut Report,
+) -> Result<(), String> {
+    let mut keep = |file: &str, kind: &str| {
+        report.outputs.push(OutputFile { file: file.into(), kind: kind.to_owned() });
+    };
+    let snapshot = simulation.snapshot();
+    let fields = folder.join("fields");
+    std::fs::create_dir_all(&fields)
+        .map_err(|error| format!("cannot make {}: {error}", fields.display()))?;
+    if snapshot.lattice().depth() == 1 {
+        for entry in snapshot.fields() {
+            let file = format!("fields/{}.npy", entry.name);
+            let raster = raster_of(&snapshot, snapshot.field(entry.name).unwrap_or_default());
+            write_raster(
+                folder.join(&file),
+                &raster,
+                &metadata(&snapshot, entry),
+                IfExists::Replace,
+            )
+            .map_err(|error| error.to_string())?;
+            keep(&file, "field");
+        }
+    }
+    folder::write_text(&folder.join("series.csv"), &simulation.series().to_csv())?;
+    keep("series.csv", "series");
+    folder::write_text(&folder.join("scenario.ron"), source.text())?;
+    keep("scenario.ron", "scenario");
+    folder::write_json(&folder.join("report.json"), report)
+}
+
+/// What a person reads when a run is done.
+fn summary(report: &Report, folder: &Path) -> String {
+    let mut text = format!("{}: {} nodes, {:.1} s\n", report.title, report.nodes, report.seconds);
+    for stage in &report.stages {
+        let name = if stage.name.is_empty() { "stage" } else { &stage.name };
+        text += &format!("  {name}: {} iterations, {}\n", stage.iterations, stage.stopped);
+    }
+    for (name, value) in &report.metrics {
+        text += &format!("  {name} = {value:.6}\n");
+    }
+    for warning in &report.warnings {
+        text += &format!("  note: {warning}\n");
+    }
+    for output in report.outputs.iter().filter(|output| output.kind != "field") {
+        text += &format!("  {} {}\n", output.kind, folder.join(&output.file).display());
+    }
+    text
+}

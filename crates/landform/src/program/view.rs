@@ -1,0 +1,81 @@
+//! `landform view`: a picture of a finished run or of a raster file.
+
+use landform_graph::{Boundary, Connectivity, Lattice};
+use landform_io::{RasterFile, ReadLimits, read_raster_file};
+
+use super::arguments::{LookName, ViewArguments};
+use super::{Failure, Outcome, export};
+use crate::outputs::{Flat, Look, Perspective, Relief};
+
+/// Draws the source of the arguments.
+pub(super) fn view(arguments: &ViewArguments) -> Outcome {
+    if arguments.output.exists() && !arguments.force {
+        let shown = arguments.output.display();
+        return Err(Failure::Refused(format!("{shown} exists; use --force to replace it")));
+    }
+    let file = source(arguments).map_err(Failure::Refused)?;
+    let raster = &file.raster;
+    raster.complete(&arguments.source).map_err(|error| Failure::Refused(error.to_string()))?;
+    // A raster that does not say its spacing is drawn as if its nodes were a metre apart.
+    let spacing_m = raster.spacing_m().ok().or(file.metadata.spacing_m).or_else(|| {
+        let [east, north] = raster.georeference.as_ref()?.ground_cell_size_m(raster.size());
+        Some((east * north).sqrt())
+    });
+    let lattice = Lattice::plane(
+        raster.size(),
+        spacing_m.unwrap_or(1.0),
+        Connectivity::Four,
+        [Boundary::Open; 2],
+    )
+    .map_err(|error| Failure::Refused(error.to_string()))?;
+    let unit = file.metadata.unit.as_deref().unwrap_or("m");
+    let image = look(arguments)
+        .draw(&lattice, &raster.values, unit)
+        .map_err(|error| Failure::Refused(error.to_string()))?;
+    let text = file.metadata.entries();
+    let text: Vec<_> = text.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
+    image
+        .write_png(&arguments.output, &text)
+        .map_err(|error| Failure::Refused(error.to_string()))?;
+    println!("{}", arguments.output.display());
+    Ok(())
+}
+
+fn source(arguments: &ViewArguments) -> Result<RasterFile, String> {
+    match arguments.source.is_dir() {
+        true => export::field_of(&arguments.source, &arguments.field),
+        false => read_raster_file(&arguments.source, &ReadLimits::default())
+            .map_err(|error| error.to_string()),
+    }
+}
+
+fn look(arguments: &ViewArguments) -> Look {
+    let colours = |default: String| arguments.colours.clone().unwrap_or(default);
+    match arguments.look {
+        LookName::Relief => {
+            let plain = Relief::default();
+            Look::Relief(Relief {
+                colours: colours(plain.colours),
+                vertical_exaggeration: arguments.exaggeration.unwrap_or(1.0),
+                water_level_m: arguments.water,
+                ..Relief::default()
+            })
+        }
+        LookName::Perspective => {
+            let plain = Perspective::default();
+            Look::Perspective(Perspective {
+                colours: colours(plain.colours.clone()),
+                bearing_deg: arguments.bearing.unwrap_or(plain.bearing_deg),
+                pitch_deg: arguments.pitch.unwrap_or(plain.pitch_deg),
+                zoom: arguments.zoom.unwrap_or(plain.zoom),
+                vertical_exaggeration: arguments.exaggeration.unwrap_or(1.0),
+                water_level_m: arguments.water,
+                ..plain
+            })
+        }
+        LookName::Flat => {
+            let plain = Flat::default();
+            Look::Flat(Flat { colours: colours(plain.colours.clone()), ..plain })
+        }
+    }
+}

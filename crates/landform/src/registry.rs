@@ -1,0 +1,23 @@
+//! The built-in processes, initial conditions, metrics and outputs.
+
+use landform_sim::metric::FieldStatistic;
+use landform_sim::registry::Registry;
+
+use crate::{inputs, outputs};
+
+/// A registry with everything that Landform offers.
+pub fn registry() -> Registry {
+    let mut registry = Registry::new();
+    registry.domain::<inputs::RasterDomain>();
+    registry.initial::<inputs::DomainRaster>().initial::<inputs::RasterFile>();
+    landform_synth::register(&mut registry);
+    landform_dunes::register(&mut registry);
+    registry.metric::<FieldStatistic>();
+    registry
+        .output::<outputs::Picture>()
+        .output::<outputs::Panels>()
+        .output::<outputs::Animation>()
+        .output::<outputs::FieldFile>()
+        .output::<outputs::Mesh>();
+    registry
+}
