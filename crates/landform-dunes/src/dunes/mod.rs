@@ -10,20 +10,28 @@
 //!   [`Protection`] the thesis' own;
 //! - [`Rose`], [`Wind`]: where the wind blows; [`WindLine`]: the nodes it blows along;
 //! - [`Refinement`]: phases of ever lower slabs; [`smooth`]: the diffusion at the end;
+//! - [`crossing_spacing_m`], [`drift_m`], [`crest_orientation`], [`near_repose_percent`] and others:
+//!   what to measure on a dune field; [`shadow_error`]: protection against geometric shadow;
 //! - [`mod@reference`]: the same model, literally and serially, for reading and for tests.
 
 mod avalanche;
 mod cone;
 mod cone_sums;
+mod crest_lines;
+mod crest_spacing;
 mod engine;
 mod error;
+mod event_sizes;
 mod feed;
+mod metrics;
 mod plane;
+mod profiles;
 mod protection;
 pub mod reference;
 mod refinement;
 mod settings;
 mod shadow;
+mod shadow_error;
 mod shelter;
 mod smoothing;
 mod sweep;
@@ -31,12 +39,19 @@ mod transport;
 mod wind;
 
 pub use avalanche::AvalancheCounts;
+pub use crest_lines::{CrestOrientation, crest_ends_per_m, crest_orientation};
+pub use crest_spacing::{correlation_spacing_m, crossing_spacing_m, drift_m};
 pub use engine::{Engine, TickCounts};
 pub use error::DuneError;
+pub use event_sizes::{SizeBin, size_bins};
+pub use metrics::{bare_percent, near_repose_percent, sand_volume_m3, steepest_slopes};
 pub use protection::{Protection, ProtectionSettings, protection_by_definition};
 pub use refinement::Refinement;
 pub use settings::{AvalancheSettings, DuneSettings, TransportSettings};
 pub use shadow::{Shadow, ShadowSettings, cast_shadow};
+pub use shadow_error::{
+    FlankSettings, ShadowError, VisibilitySettings, flanks, geometric_shadow, shadow_error,
+};
 pub use shelter::{Exposure, Shelter, Unsheltered};
 pub use smoothing::{SmoothingSettings, smooth};
 pub use transport::{SUB_STEPS, TransportCounts};
