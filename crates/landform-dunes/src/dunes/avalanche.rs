@@ -173,3 +173,114 @@ pub(super) fn settle(
     }
     counts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dunes::reference;
+    use landform_graph::Boundary;
+    use landform_sim::random::{RandomStream, unit};
+
+    const PLANES: [Connectivity; 3] =
+        [Connectivity::Four, Connectivity::FourEight, Connectivity::Eight];
+
+    /// Sand far too steep on a bed with cliffs; a third of the nodes are bare.
+    fn rough(lattice: &Lattice, seed: u64) -> (Vec<f64>, Vec<f64>) {
+        let random = RandomStream::new(seed, "rough");
+        (0..lattice.node_count())
+            .map(|node| {
+                let [bed, cliff, sand, bare] = random.block(0, node, 0).map(unit);
+                let bed = 3.0 * bed + if cliff < 0.1 { 40.0 } else { 0.0 };
+                (bed, if bare < 0.3 { 0.0 } else { 30.0 * sand })
+            })
+            .unzip()
+    }
+
+    fn run(lattice: &Lattice, slab: f64, bed: &[f64], sand: &mut [f64]) -> AvalancheCounts {
+        let mut surface: Vec<f64> = bed.iter().zip(&*sand).map(|(bed, sand)| bed + sand).collect();
+        let mut layers = Layers { bed, sand, surface: &mut surface };
+        let settings = AvalancheSettings::default();
+        settle(lattice, &settings, slab, &mut layers, &mut Changes::default())
+    }
+
+    /// Panics at an edge steeper than repose whose upper node holds sand.
+    fn assert_at_rest(lattice: &Lattice, bed: &[f64], sand: &[f64]) {
+        for node in 0..sand.len() {
+            for edge in lattice.neighbours(node).filter(|_| sand[node] > 0.0) {
+                let fall = bed[node] + sand[node] - bed[edge.node] - sand[edge.node];
+                let degrees = (fall / edge.distance).atan().to_degrees();
+                assert!(degrees <= 33.0 + 1e-9, "{degrees} degrees from node {node} to {edge:?}");
+            }
+        }
+    }
+
+    fn bits(values: &[f64]) -> Vec<u64> {
+        values.iter().map(|value| value.to_bits()).collect()
+    }
+
+    #[test]
+    fn following_changes_gives_the_bits_of_sweeping_everything() {
+        let boundaries = [Boundary::Open, Boundary::Periodic];
+        for connectivity in PLANES {
+            for size in [[1, 9], [9, 1], [7, 5], [64, 6], [65, 7], [130, 31], [12, 128]] {
+                for boundary in boundaries.iter().flat_map(|&x| boundaries.map(|y| [x, y])) {
+                    let Ok(lattice) = Lattice::plane(size, 10.0, connectivity, boundary) else {
+                        continue;
+                    };
+                    let (bed, start) = rough(&lattice, 3);
+                    let [mut fast, mut plain] = [start.clone(), start];
+                    let counts = run(&lattice, 0.25, &bed, &mut fast);
+                    let settings = AvalancheSettings::default();
+                    let rounds = reference::settle(&lattice, &settings, 0.25, &bed, &mut plain);
+                    assert_eq!(bits(&fast), bits(&plain), "{lattice:?}");
+                    assert_eq!(counts.sweeps, rounds);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sand_comes_to_rest_and_none_is_lost() {
+        for connectivity in PLANES {
+            let boundary = [Boundary::Periodic; 2];
+            let lattice = Lattice::plane([90, 70], 10.0, connectivity, boundary).unwrap();
+            let (bed, mut sand) = rough(&lattice, 8);
+            let before: f64 = sand.iter().sum();
+            let counts = run(&lattice, 5.0, &bed, &mut sand);
+            assert!(counts.settled && counts.slides > 0 && counts.moved_m > 0.0);
+            assert_at_rest(&lattice, &bed, &sand);
+            assert!(sand.iter().all(|&sand| sand >= 0.0));
+            let after: f64 = sand.iter().sum();
+            assert!((after / before - 1.0).abs() < 1e-12, "{before} m became {after} m");
+        }
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_bits() {
+        let boundary = [Boundary::Periodic; 2];
+        let size = [300, 250];
+        let lattice = Lattice::plane(size, 10.0, Connectivity::FourEight, boundary).unwrap();
+        let (bed, start) = rough(&lattice, 1);
+        let results = [1, 2, 8].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut sand = start.clone();
+            let counts = pool.install(|| run(&lattice, 1.0, &bed, &mut sand));
+            (bits(&sand), counts.moved_m.to_bits(), counts.slides)
+        });
+        assert!(results.iter().all(|result| *result == results[0]));
+        let mut plain = start;
+        reference::settle(&lattice, &AvalancheSettings::default(), 1.0, &bed, &mut plain);
+        assert_eq!(results[0].0, bits(&plain));
+    }
+
+    /// With slabs exactly as high as the stable step nothing may slide back and forth.
+    #[test]
+    fn the_highest_slab_allowed_still_settles() {
+        let boundary = [Boundary::Periodic; 2];
+        let lattice = Lattice::plane([60, 60], 10.0, Connectivity::Eight, boundary).unwrap();
+        let slab = AvalancheSettings::default().repose() * 10.0;
+        let (bed, mut sand) = rough(&lattice, 2);
+        assert!(run(&lattice, slab, &bed, &mut sand).settled);
+        assert_at_rest(&lattice, &bed, &sand);
+    }
+}

@@ -212,3 +212,149 @@ impl Engine {
 fn exact_slab(slab: f64) -> f64 {
     f64::from_bits(slab.to_bits() & !((1 << 29) - 1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dunes::{Rose, Shadow, ShadowSettings, TransportSettings, Unsheltered, Wind};
+    use landform_graph::{Boundary, Connectivity};
+
+    fn lattice(size: [usize; 2], boundary: Boundary) -> Lattice {
+        Lattice::plane(size, 10.0, Connectivity::FourEight, [boundary; 2]).unwrap()
+    }
+
+    fn noise(lattice: &Lattice, mean: f64) -> Vec<f64> {
+        let random = RandomStream::new(1, "noise");
+        (0..lattice.node_count()).map(|n| 2.0 * mean * unit(random.block(0, n, 0)[0])).collect()
+    }
+
+    fn shadow() -> Shadow {
+        Shadow::new(ShadowSettings::default()).unwrap()
+    }
+
+    /// Ticks `from..to` on `threads`, with a new engine.
+    fn run(lattice: &Lattice, sand: &mut [f64], ticks: std::ops::Range<u64>, threads: usize) {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut engine = Engine::new(lattice.clone(), DuneSettings::default(), 4).unwrap();
+        let bed: Vec<f64> = (0..sand.len()).map(|node| (node % 17) as f64).collect();
+        pool.install(|| {
+            for tick in ticks {
+                engine.tick(&bed, sand, tick, &mut shadow()).unwrap();
+            }
+        });
+    }
+
+    #[test]
+    fn same_bits_on_any_threads_and_after_a_restart() {
+        let lattice = lattice([300, 200], Boundary::Periodic);
+        let start = noise(&lattice, 12.0);
+        let results = [1, 2, 8].map(|threads| {
+            let mut sand = start.clone();
+            run(&lattice, &mut sand, 0..3, threads);
+            run(&lattice, &mut sand, 3..6, threads);
+            sand
+        });
+        let mut unbroken = start;
+        run(&lattice, &mut unbroken, 0..6, 2);
+        for sand in &results {
+            assert!(sand.iter().zip(&unbroken).all(|(a, b)| a.to_bits() == b.to_bits()));
+        }
+    }
+
+    #[test]
+    fn every_tick_conserves_sand_and_leaves_it_at_rest() {
+        let lattice = lattice([128, 64], Boundary::Periodic);
+        let mut engine = Engine::new(lattice.clone(), DuneSettings::default(), 4).unwrap();
+        let mut sand = noise(&lattice, 12.0);
+        let bed = vec![0.0; sand.len()];
+        for tick in 0..20 {
+            let before: f64 = sand.iter().sum();
+            let counts = engine.tick(&bed, &mut sand, tick, &mut shadow()).unwrap();
+            let after: f64 = sand.iter().sum();
+            assert!((after / before - 1.0).abs() < 1e-12, "tick {tick}: {before} to {after} m");
+            assert!(counts.transport.lifts > 0);
+            for (node, edge) in
+                (0..sand.len()).flat_map(|node| lattice.neighbours(node).map(move |e| (node, e)))
+            {
+                let slope = (sand[node] - sand[edge.node]) / edge.distance;
+                assert!(slope.atan().to_degrees() <= 33.0 + 1e-9 || sand[node] <= 0.0);
+            }
+            assert!(sand.iter().all(|&sand| sand >= 0.0));
+        }
+    }
+
+    /// Sand that leaves is counted by border, and with what enters the ledger closes.
+    #[test]
+    fn the_ledger_of_open_borders_closes() {
+        let lattice = lattice([60, 50], Boundary::Open);
+        let transport =
+            TransportSettings { feed_slabs_per_tick: 12.5, slab_m: 1.0, ..Default::default() };
+        let rose = Rose { winds: vec![Wind { towards_deg: 20.0, ..Wind::default() }] };
+        let settings = DuneSettings { transport, rose, ..DuneSettings::default() };
+        let mut engine = Engine::new(lattice.clone(), settings, 4).unwrap();
+        let mut sand: Vec<f64> = noise(&lattice, 4.0).iter().map(|sand| sand.floor()).collect();
+        let before: f64 = sand.iter().sum();
+        let bed = vec![0.0; sand.len()];
+        let mut total = TransportCounts::default();
+        for tick in 0..40 {
+            let counts = engine.tick(&bed, &mut sand, tick, &mut shadow()).unwrap();
+            total.add(&counts.transport);
+        }
+        let [west, east, north, south] = total.left;
+        assert_eq!(total.fed, 500);
+        assert!(east > 0 && north > 0 && west + south == 0, "{total:?}");
+        let after: f64 = sand.iter().sum();
+        assert_eq!(after, before + 500.0 - (east + north) as f64);
+    }
+
+    #[test]
+    fn slabs_of_awkward_height_leave_no_crumbs() {
+        let lattice = lattice([40, 40], Boundary::Periodic);
+        let transport = TransportSettings { slab_m: 0.1, ..Default::default() };
+        let settings = DuneSettings { transport, ..DuneSettings::default() };
+        let mut engine = Engine::new(lattice.clone(), settings, 4).unwrap();
+        let mut sand: Vec<f64> = (0..1600).map(|node| f64::from(node % 8) * 0.1).collect();
+        let bed = vec![0.0; sand.len()];
+        for tick in 0..50 {
+            engine.tick(&bed, &mut sand, tick, &mut Unsheltered).unwrap();
+        }
+        let slab = engine.slab_m();
+        assert!((1.0 - slab / 0.1).abs() < 1.2e-7);
+        // What cannot be lifted is far less than a slab everywhere.
+        assert!(sand.iter().all(|sand| sand % slab < 1e-5), "crumbs are left");
+    }
+
+    #[test]
+    fn bad_settings_and_fields_are_refused() {
+        let lattice = lattice([8, 8], Boundary::Periodic);
+        let refused = |change: fn(&mut DuneSettings)| {
+            let mut settings = DuneSettings::default();
+            change(&mut settings);
+            Engine::new(lattice.clone(), settings, 0).unwrap_err()
+        };
+        let ranges: [fn(&mut DuneSettings); 8] = [
+            |settings| settings.transport.slab_m = -1.0,
+            |settings| settings.transport.hop_m = f64::NAN,
+            |settings| settings.transport.deposit_on_sand = 0.0,
+            |settings| settings.transport.deposit_on_bare = 1.1,
+            |settings| settings.transport.most_hops = 0,
+            |settings| settings.transport.feed_slabs_per_tick = -1.0,
+            |settings| settings.avalanche.repose_deg = 90.0,
+            |settings| settings.avalanche.repose_deg = 0.0,
+        ];
+        for change in ranges {
+            assert!(matches!(refused(change), DuneError::Range { .. }));
+        }
+        let high = refused(|settings| settings.transport.slab_m = 7.0);
+        assert!(matches!(high, DuneError::SlabTooHigh { .. }), "{high}");
+        let closed = refused(|settings| settings.transport.feed_slabs_per_tick = 1.0);
+        assert_eq!(closed, DuneError::NoInlet(1.0));
+        let volume = Lattice::volume([4; 3], 1.0, Connectivity::Voxel6, [Boundary::Open; 3]);
+        let error = Engine::new(volume.unwrap(), DuneSettings::default(), 0).unwrap_err();
+        assert_eq!(error, DuneError::Volume(Connectivity::Voxel6));
+        let mut engine = Engine::new(lattice, DuneSettings::default(), 0).unwrap();
+        let error = engine.tick(&[0.0; 64], &mut [0.0; 63], 0, &mut Unsheltered).unwrap_err();
+        assert_eq!(error, DuneError::Length { name: "sand", found: 63, expected: 64 });
+        assert!(engine.set_slab_m(f64::INFINITY).is_err());
+    }
+}

@@ -317,3 +317,80 @@ fn relief(surface: &[f64]) -> f64 {
         );
     high - low
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dunes::reference;
+    use landform_graph::{Boundary, Connectivity};
+    use landform_sim::random::{RandomStream, unit};
+
+    /// Bumpy ground: noise on a few sharp hills.
+    fn hills(lattice: &Lattice, height: f64) -> Vec<f64> {
+        let random = RandomStream::new(5, "hills");
+        (0..lattice.node_count())
+            .map(|node| {
+                let noise = unit(random.block(0, node, 0)[0]);
+                let hill = unit(random.block(1, node / 37, 0)[0]).powi(8);
+                height * (0.1 * noise + hill)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn running_maxima_give_the_shadow_of_looking_upwind() {
+        let boundaries = [Boundary::Open, Boundary::Periodic];
+        let mut shaded_ever = 0;
+        for (columns, rows) in [(61, 40), (40, 133), (8, 8), (3, 5)] {
+            for boundary in boundaries.iter().flat_map(|&x| boundaries.map(|y| [x, y])) {
+                let size = [columns, rows];
+                let lattice = Lattice::plane(size, 2.0, Connectivity::Four, boundary).unwrap();
+                for (number, height) in [3.0, 30.0, 3000.0].into_iter().enumerate() {
+                    let surface = hills(&lattice, height);
+                    for degrees in (0..360).step_by(15).chain([7, 44, 46, 133, 291]) {
+                        let phase = (degrees % 10) as f64 / 10.0;
+                        let wind = WindLine::new(f64::from(degrees).to_radians(), phase);
+                        let reach_m =
+                            [None, Some(9.0), Some(60.0)][(degrees as usize + number) % 3];
+                        let settings = ShadowSettings { angle_deg: 15.0, reach_m };
+                        let [mut kernel, mut walked] = [(); 2].map(|()| vec![true; surface.len()]);
+                        cast_shadow(&lattice, &surface, &wind, &settings, &mut kernel);
+                        reference::shadow(&lattice, &surface, &wind, &settings, &mut walked);
+                        assert_eq!(kernel, walked, "{size:?} {boundary:?} {degrees} {settings:?}");
+                        shaded_ever += walked.iter().filter(|&&shaded| shaded).count();
+                    }
+                }
+            }
+        }
+        assert!(shaded_ever > 100_000);
+    }
+
+    /// A wall of height H shades H / tan(15 degrees) downwind, whatever the wind.
+    #[test]
+    fn a_wall_casts_a_shadow_of_the_exact_length() {
+        let boundary = [Boundary::Open; 2];
+        let lattice = Lattice::plane([80, 80], 1.0, Connectivity::Four, boundary).unwrap();
+        for (degrees, wall) in [(0.0, 20), (180.0, 20), (90.0, 20), (270.0, 20)] {
+            let vertical = degrees % 180.0 == 0.0;
+            let along = |node: usize| if vertical { node % 80 } else { node / 80 };
+            let surface: Vec<f64> =
+                (0..6400).map(|node| if along(node) == wall { 5.0 } else { 0.0 }).collect();
+            let wind = WindLine::new(f64::to_radians(degrees), 0.3);
+            let settings = ShadowSettings { angle_deg: 15.0, reach_m: None };
+            let mut shaded = vec![false; 6400];
+            cast_shadow(&lattice, &surface, &wind, &settings, &mut shaded);
+            // 5 / tan 15 = 18.66: eighteen nodes lie below the edge of the shadow.
+            assert_eq!(shaded.iter().filter(|&&shaded| shaded).count(), 18 * 80, "{degrees}");
+        }
+    }
+
+    #[test]
+    fn flat_ground_has_no_shadow() {
+        let boundary = [Boundary::Periodic; 2];
+        let lattice = Lattice::plane([9, 7], 1.0, Connectivity::Four, boundary).unwrap();
+        let mut shaded = vec![true; 63];
+        let wind = WindLine::new(0.3, 0.5);
+        cast_shadow(&lattice, &[4.0; 63], &wind, &ShadowSettings::default(), &mut shaded);
+        assert!(shaded.iter().all(|&shaded| !shaded));
+    }
+}

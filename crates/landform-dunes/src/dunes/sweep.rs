@@ -268,17 +268,20 @@ impl EdgeRow<'_> {
         let first = &surface[self.from + inner.start..self.from + inner.end];
         let end = (self.to + inner.start).wrapping_add_signed(self.sweep.family.columns);
         let second = &surface[end..end + inner.len()];
+        let is_steep = |a: f64, b: f64| u64::from((a - b).abs() > trigger);
+        let (first_groups, first_rest) = first.as_chunks::<GROUP>();
+        let (second_groups, second_rest) = second.as_chunks::<GROUP>();
         let mut bits = 0;
         let mut bit = inner.start - tile * TILE;
-        for (first, second) in first.chunks(GROUP).zip(second.chunks(GROUP)) {
-            let is_steep = |(a, b): (&f64, &f64)| (a - b).abs() > trigger;
-            let pairs = || first.iter().zip(second);
-            if pairs().fold(0, |any, pair| any | u64::from(is_steep(pair))) != 0 {
-                for (place, pair) in pairs().enumerate() {
-                    bits |= u64::from(is_steep(pair)) << (bit + place);
-                }
+        for (first, second) in first_groups.iter().zip(second_groups) {
+            let steep: [u64; GROUP] = std::array::from_fn(|at| is_steep(first[at], second[at]));
+            if steep.iter().fold(0, |any, one| any | one) != 0 {
+                bits |= (0..GROUP).fold(0, |bits, at| bits | steep[at] << at) << bit;
             }
             bit += GROUP;
+        }
+        for (at, (&first, &second)) in first_rest.iter().zip(second_rest).enumerate() {
+            bits |= is_steep(first, second) << (bit + at);
         }
         bits
     }

@@ -294,3 +294,104 @@ pub(super) fn matches(word: u32, number: u32) -> u32 {
     let differs = word ^ (number * 0x5555_5555);
     !(differs | differs >> 1) & 0x5555_5555
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use landform_graph::{Boundary, Connectivity, Lattice};
+
+    fn plane(boundary: Boundary) -> Plane {
+        let size = [100, 40];
+        Plane::new(&Lattice::plane(size, 1.0, Connectivity::Four, [boundary; 2]).unwrap())
+    }
+
+    const STEP: SubStep = SubStep { iteration: 7, number: 2, slab: 1.0, lift_in_shelter: false };
+
+    /// Visits every node, one after the other, and counts landings: lifts and changes.
+    fn transport_by_polling(flight: &Flight, chances: &Chances, ground: &[u8]) -> (u64, Vec<i32>) {
+        let Plane { width, .. } = flight.plane;
+        let mut change = vec![0; ground.len()];
+        let mut counts = TransportCounts::default();
+        for node in 0..ground.len() {
+            let [column, row] = [node % width, node / width];
+            let words = chances.polls(STEP.iteration, row * width.div_ceil(64) + column / 64);
+            let pair = words[column % 64 / 16] >> (2 * (column % 16)) & 3;
+            if pair != STEP.number || ground[node] != SAND {
+                continue;
+            }
+            counts.lifts += 1;
+            change[node] -= 1;
+            let key = (chances.land, STEP.iteration, node);
+            if let Landing::Node(landed) = flight.fly([column, row], ground, key, &mut counts) {
+                change[landed] += 1;
+            }
+        }
+        (counts.lifts, change)
+    }
+
+    #[test]
+    fn bands_and_bits_give_what_polling_node_by_node_gives() {
+        for boundary in [Boundary::Open, Boundary::Periodic] {
+            let plane = plane(boundary);
+            let ground: Vec<u8> = (0..4000).map(|node| (node * 7919 % 13 % 4) as u8).collect();
+            let flight = Flight::new(plane, [-7, 3], &TransportSettings::default());
+            let chances = Chances::new(9);
+            let bed = vec![0.0; 4000];
+            let [mut sand, mut surface] = [vec![5.0; 4000], vec![5.0; 4000]];
+            let mut layers = Layers { bed: &bed, sand: &mut sand, surface: &mut surface };
+            let counts = transport(&STEP, &flight, &chances, &ground, &mut layers, &mut Vec::new());
+            let (lifts, change) = transport_by_polling(&flight, &chances, &ground);
+            assert!(lifts > 100 && counts.lifts == lifts);
+            let expected: Vec<f64> = change.iter().map(|&change| 5.0 + f64::from(change)).collect();
+            assert_eq!(sand, expected);
+            assert_eq!(surface, sand);
+            let lost: u64 = counts.left.iter().sum();
+            assert_eq!(lost == 0, boundary == Boundary::Periodic);
+            assert_eq!(sand.iter().sum::<f64>(), 20_000.0 - lost as f64);
+        }
+    }
+
+    #[test]
+    fn four_sub_steps_poll_every_node_once() {
+        for word in [0, u32::MAX, 0x1234_5678, 0x9E37_79B9] {
+            let polls: Vec<u32> = (0..4).map(|number| matches(word, number)).collect();
+            assert_eq!(polls.iter().fold(0, |all, poll| all | poll), 0x5555_5555);
+            assert_eq!(polls.iter().map(|poll| poll.count_ones()).sum::<u32>(), 16);
+        }
+    }
+
+    /// Hops are geometric with mean 1/p, so a poll moves slabs by hop length over p.
+    #[test]
+    fn hops_per_lift_follow_the_probability_of_staying() {
+        let plane = plane(Boundary::Periodic);
+        let settings = TransportSettings::default();
+        let flight = Flight::new(plane, [5, 0], &settings);
+        for (ground, chance) in [(SAND, settings.deposit_on_sand), (0, settings.deposit_on_bare)] {
+            let ground = vec![ground; 4000];
+            let stream = RandomStream::new(3, "hops");
+            let mut counts = TransportCounts::default();
+            for slab in 0..200_000 {
+                flight.fly([3, 3], &ground, (stream, 0, slab), &mut counts);
+            }
+            let mean = counts.hops as f64 / 200_000.0;
+            // Four standard errors of a geometric mean.
+            let error = 4.0 * (1.0 - chance).sqrt() / chance / 200_000_f64.sqrt();
+            assert!((mean - 1.0 / chance).abs() < error, "{mean} hops, expected {}", 1.0 / chance);
+        }
+    }
+
+    #[test]
+    fn slabs_stay_in_shelter_and_when_they_hopped_too_often() {
+        let plane = plane(Boundary::Periodic);
+        let settings =
+            TransportSettings { deposit_on_bare: 1e-12, most_hops: 9, ..Default::default() };
+        let flight = Flight::new(plane, [5, 0], &settings);
+        let key = (RandomStream::new(3, "hops"), 0, 0);
+        let mut counts = TransportCounts::default();
+        let sheltered = vec![SHELTERED; 4000];
+        assert_eq!(flight.fly([3, 3], &sheltered, key, &mut counts), Landing::Node(308));
+        assert_eq!((counts.hops, counts.tired), (1, 0));
+        assert_eq!(flight.fly([3, 3], &vec![0; 4000], key, &mut counts), Landing::Node(348));
+        assert_eq!((counts.hops, counts.tired), (10, 1));
+    }
+}

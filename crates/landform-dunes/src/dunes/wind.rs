@@ -203,3 +203,75 @@ impl WindLine {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_rose_blows_fifteen_degrees_to_either_side() {
+        let directions = Rose::default().directions().unwrap();
+        let degrees: Vec<f64> = directions.angles().map(f64::to_degrees).collect();
+        assert!(degrees.iter().zip([-15.0, 0.0, 15.0]).all(|(a, b)| (a - b).abs() < 1e-12));
+        let drawn = [0.1, 0.5, 0.9].map(|chance| directions.draw(chance).to_degrees().round());
+        assert_eq!(drawn, [-15.0, 0.0, 15.0]);
+    }
+
+    #[test]
+    fn weights_share_the_time() {
+        let often = Wind { weight: 3.0, ..Wind::steady(90.0) };
+        let never = Wind { weight: 0.0, ..Wind::steady(10.0) };
+        let rose = Rose { winds: vec![often, never, Wind::steady(0.0)] };
+        let directions = rose.directions().unwrap();
+        let north = (0..1000).filter(|&n| directions.draw(f64::from(n) / 1000.0) > 1.0).count();
+        assert_eq!(north, 750);
+        assert!(directions.draw(0.999_999_999_999) < 0.1);
+    }
+
+    #[test]
+    fn bad_roses_are_refused() {
+        let with = |wind: Wind| Rose { winds: vec![wind] }.validate();
+        assert_eq!(Rose { winds: vec![] }.validate(), Err(DuneError::NoWind));
+        for wind in [
+            Wind { towards_deg: f64::NAN, ..Wind::default() },
+            Wind { weight: -1.0, ..Wind::default() },
+            Wind { weight: 0.0, ..Wind::default() },
+            Wind { spread_deg: 200.0, ..Wind::default() },
+            Wind { directions: 0, ..Wind::default() },
+        ] {
+            assert!(matches!(with(wind.clone()), Err(DuneError::Range { .. })), "{wind:?}");
+        }
+    }
+
+    /// The mean jump has the wind's direction and length, whole nodes are exact.
+    #[test]
+    fn jumps_keep_length_and_direction_on_average() {
+        for degrees in [0.0_f64, 15.0, 45.0, 100.0, 180.0, 260.0, 333.0] {
+            let wind = WindLine::new(degrees.to_radians(), 0.0);
+            let mut mean = [0.0; 2];
+            let fine = 200;
+            for (a, b) in (0..fine).flat_map(|a| (0..fine).map(move |b| (a, b))) {
+                let chances = [a, b].map(|n| (f64::from(n) + 0.5) / f64::from(fine));
+                let jump = wind.jump(7.3, chances);
+                mean = [0, 1].map(|i| mean[i] + jump[i] as f64 / f64::from(fine * fine));
+            }
+            let expected = [7.3 * degrees.to_radians().cos(), -7.3 * degrees.to_radians().sin()];
+            let error = (mean[0] - expected[0]).hypot(mean[1] - expected[1]);
+            assert!(error < 0.03, "{degrees} degrees: {mean:?}, expected {expected:?}");
+        }
+        assert_eq!(WindLine::new(std::f64::consts::FRAC_PI_2, 0.5).jump(5.0, [0.99; 2]), [0, -5]);
+        assert_eq!(WindLine::new(0.0, 0.5).jump(0.0, [0.0; 2]), [1, 0]);
+    }
+
+    /// Lines of one wind never meet: at any step they are shifted by the same nodes.
+    #[test]
+    fn shifts_grow_by_at_most_one() {
+        for degrees in 0..360 {
+            let wind = WindLine::new(f64::from(degrees).to_radians(), 0.7);
+            for step in -50..50 {
+                assert!((wind.shift(step + 1) - wind.shift(step)).abs() <= 1);
+            }
+            assert!((1.0..1.415).contains(&wind.step_length()));
+        }
+    }
+}
