@@ -164,7 +164,9 @@ mod tests {
             let near = steps.iter().all(|s| s.abs() <= 1);
             near && match lattice.connectivity() {
                 Connectivity::Four | Connectivity::Voxel6 => axes == 1,
-                Connectivity::FourEight => axes == 1 || axes == 2 && (from[0] + from[1]) % 2 == 0,
+                Connectivity::FourEight => {
+                    axes == 1 || axes == 2 && (from[0] + from[1]).is_multiple_of(2)
+                }
                 Connectivity::Eight | Connectivity::Voxel18 => axes == 1 || axes == 2,
                 Connectivity::Voxel26 => axes >= 1,
             }

@@ -202,7 +202,7 @@ impl Lattice {
         }
         // Diagonals leave even nodes only: half of the rectangle, and the odd one out if the
         // rectangle starts at an even node.
-        (count + usize::from((ends[0].start + ends[1].start) % 2 == 0)) / 2
+        (count + usize::from((ends[0].start + ends[1].start).is_multiple_of(2))) / 2
     }
 }
 

@@ -1,5 +1,7 @@
 //! Travel times of a front: the eikonal equation by fast marching.
 
+use fixedbitset::FixedBitSet;
+
 use super::queue::TimeQueue;
 use super::upwind::{Upwind, arrival};
 use super::{MarchError, check_length, check_start};
@@ -57,17 +59,6 @@ pub struct Arrivals<'a> {
     pub order: &'a [u32],
 }
 
-/// What has happened to a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    /// The front has not passed it.
-    Ahead,
-    /// Nor here, where a front will be released.
-    Start,
-    /// The front has passed: the time is final.
-    Passed,
-}
-
 /// Solver of the eikonal equation `abs(grad T) F = 1` (thesis, equation A.3 and listing A.6),
 /// with memory that is used again from one march to the next.
 ///
@@ -94,15 +85,18 @@ enum State {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct FastMarching {
-    /// Infinite but for the nodes in `order` (and the narrow band during a march).
+    /// Final times of the nodes that the front has passed, else infinite.
     time: Vec<f64>,
-    state: Vec<State>,
+    /// Least times so far of the nodes in `order` and of the narrow band, else infinite.
+    due: Vec<f64>,
+    /// Nodes where a front is released.
+    starts: FixedBitSet,
     order: Vec<u32>,
     queue: TimeQueue,
 }
 
 impl FastMarching {
-    /// Memory for marches; it grows to 13 bytes a node and the narrow band.
+    /// Memory for marches; it grows to 20 bytes a node and the narrow band.
     pub fn new() -> Self {
         Self::default()
     }
@@ -129,12 +123,10 @@ impl FastMarching {
         }
         self.begin(lattice.node_count());
         for &(node, time) in starts {
-            self.state[node] = State::Start;
+            self.starts.insert(node);
             self.offer(node, time);
         }
-        let marched = self.march(&Medium { axes: Axes::new(lattice), speed, options });
-        self.drop_band();
-        marched?;
+        self.march(&Medium { axes: Axes::new(lattice), speed, options })?;
         Ok(Arrivals { time: &self.time, order: &self.order })
     }
 
@@ -154,33 +146,42 @@ impl FastMarching {
 
     /// Forgets the last march.
     fn begin(&mut self, nodes: usize) {
-        for node in self.order.drain(..).map(|node| node as usize) {
+        let reached = self.order.drain(..).map(|node| node as usize);
+        for node in reached.chain(self.queue.drain()) {
             self.time[node] = f64::INFINITY;
-            self.state[node] = State::Ahead;
+            self.due[node] = f64::INFINITY;
+            self.starts.set(node, false);
         }
         self.time.resize(nodes, f64::INFINITY);
-        self.state.resize(nodes, State::Ahead);
+        self.due.resize(nodes, f64::INFINITY);
+        self.starts.grow(nodes);
+    }
+
+    /// Whether the front has passed a node.
+    #[inline]
+    fn passed(&self, node: usize) -> bool {
+        self.time[node] < f64::INFINITY
     }
 
     /// Lowers the time of a node of the narrow band.
     #[inline]
     fn offer(&mut self, node: usize, time: f64) {
-        if time < self.time[node] {
-            self.time[node] = time;
+        if time < self.due[node] {
+            self.due[node] = time;
             self.queue.push(time, node);
         }
     }
 
     fn march(&mut self, medium: &Medium<'_>) -> Result<(), MarchError> {
         while let Some((time, node)) = self.queue.pop() {
-            if self.state[node] == State::Passed {
+            if self.passed(node) {
                 continue;
             }
             if time > medium.options.limit {
                 self.queue.push(time, node);
                 break;
             }
-            self.state[node] = State::Passed;
+            self.time[node] = time;
             self.order.push(node as u32);
             self.update_neighbours(medium, node)?;
         }
@@ -195,7 +196,7 @@ impl FastMarching {
                 let Some((beside, coordinate)) = medium.axes.beside(node, at, axis, step) else {
                     continue;
                 };
-                if self.state[beside] == State::Passed {
+                if self.passed(beside) {
                     continue;
                 }
                 let mut place = at;
@@ -212,40 +213,26 @@ impl FastMarching {
     /// What the nodes that the front has passed along an axis tell of a node.
     #[inline]
     fn upwind(&self, medium: &Medium<'_>, node: usize, at: [usize; 3], axis: usize) -> Upwind {
-        let passed = |steps: isize| {
+        // Infinite where the front has not passed, and beyond open borders.
+        let time = |steps: isize| {
             let beside = medium.axes.beside(node, at, axis, steps);
-            beside
-                .filter(|&(node, _)| self.state[node] == State::Passed)
-                .map(|(node, _)| self.time[node])
+            beside.map_or(f64::INFINITY, |(node, _)| self.time[node])
         };
-        let (back, ahead) = (passed(-1), passed(1));
-        let (near, step) = match (back, ahead) {
-            (None, None) => return Upwind::NONE,
-            (Some(back), None) => (back, -1),
-            (None, Some(ahead)) => (ahead, 1),
-            (Some(back), Some(ahead)) if back <= ahead => (back, -1),
-            (Some(_), Some(ahead)) => (ahead, 1),
-        };
+        let (back, ahead) = (time(-1), time(1));
+        let (near, step) = if back <= ahead { (back, -1) } else { (ahead, 1) };
+        if near == f64::INFINITY {
+            return Upwind::NONE;
+        }
         // Where a front is curved within a spacing or two, as around a single node, second
         // differences give times that are too small. Starts are there to give such places
         // exact times, so they yield to first differences only.
-        if medium.options.order == Order::Second
-            && self.state[node] != State::Start
-            && let Some(far) = passed(2 * step).filter(|&far| far <= near)
-        {
-            return Upwind::second(near, far);
-        }
-        Upwind::first(near)
-    }
-
-    /// Takes back the times of nodes that the front did not reach.
-    fn drop_band(&mut self) {
-        for node in self.queue.drain() {
-            if self.state[node] != State::Passed {
-                self.time[node] = f64::INFINITY;
-                self.state[node] = State::Ahead;
+        if medium.options.order == Order::Second && !self.starts.contains(node) {
+            let far = time(2 * step);
+            if far <= near {
+                return Upwind::second(near, far);
             }
         }
+        Upwind::first(near)
     }
 }
 

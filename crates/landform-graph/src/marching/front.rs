@@ -158,9 +158,9 @@ mod tests {
             })
         });
         assert!(marched.is_ok());
-        for node in 0..lattice.node_count() {
+        for (node, distance) in distance.into_iter().enumerate() {
             let least = sources.map(|source| weighted(node, source));
-            assert_eq!(distance[node], least[0].min(least[1]), "node {node}");
+            assert_eq!(distance, least[0].min(least[1]), "node {node}");
         }
     }
 

@@ -67,11 +67,11 @@ proptest! {
         let centre = lattice.position(4);
         let basis = |r: DVec3| [1.0, r.x, r.y, r.x * r.x, r.y * r.y, r.x * r.y];
         let mut residual_moments = [0.0; 6];
-        for node in 0..9 {
+        for (node, value) in field.iter().enumerate() {
             let r = lattice.position(node) - centre;
             let modelled = fit.value + fit.gradient.dot(r) + 0.5 * r.dot(fit.hessian * r);
             for (moment, function) in residual_moments.iter_mut().zip(basis(r)) {
-                *moment += (field[node] - modelled) * function;
+                *moment += (value - modelled) * function;
             }
         }
         prop_assert!(residual_moments.iter().all(|moment| moment.abs() < 1e-12));

@@ -174,3 +174,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn memory_serves_lattices_of_any_size() {
+    let mut marching = FastMarching::new();
+    for nodes in [30, 5, 12, 40] {
+        let lattice = square(nodes, 1.0, Connectivity::Four);
+        let limit = MarchOptions { limit: 0.5, ..Default::default() };
+        let expected = FastMarching::new().distance(&lattice, &[1], limit).unwrap().time.to_vec();
+        assert_eq!(marching.distance(&lattice, &[1], limit).unwrap().time, expected);
+    }
+}
