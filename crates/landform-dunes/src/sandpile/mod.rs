@@ -20,6 +20,7 @@ pub mod exact;
 mod oslo;
 mod sand_like;
 mod slab_pile;
+mod statistics;
 
 pub use abelian::{AbelianSandpile, Avalanche, GrainLedger, SandpileError};
 pub use burning::is_recurrent;
@@ -27,3 +28,4 @@ pub use corrosion_like::{CorrosionLike, CorrosionState};
 pub use oslo::OsloPile;
 pub use sand_like::{SandLike, SandState};
 pub use slab_pile::SlabPile;
+pub use statistics::{SizeBin, SizeStatistics};

@@ -118,8 +118,7 @@ impl SandLike {
         let thickness = self.slab_m * f64::from(self.slabs_together);
         state.choose_targets(lattice, heights, thickness);
         state.choose_givers(lattice, heights);
-        let SandState { targets, givers, slipped, .. } = &*state;
-        let _ = slipped;
+        let SandState { targets, givers, .. } = &*state;
         heights.par_iter_mut().enumerate().for_each(|(node, height)| {
             let target = targets[node];
             let gives = target != NOBODY && givers[target as usize] == node as u32;
@@ -173,5 +172,107 @@ impl SandState {
         self.shaken.fill(0);
         self.disc.add_events(lattice, &self.slipped, &mut self.shaken);
         self.slipped.iter().filter(|&&slipped| slipped == 1).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use landform_graph::{Boundary, Connectivity};
+    use landform_synth::{InitialCondition, WhiteNoise};
+
+    fn lattice(side: usize) -> Lattice {
+        let periodic = [Boundary::Periodic; 2];
+        Lattice::plane([side, side], 10.0, Connectivity::Eight, periodic).unwrap()
+    }
+
+    fn noise(lattice: &Lattice) -> Vec<f64> {
+        let noise = WhiteNoise { amplitude_m: 50.0, ..Default::default() };
+        noise.generate(lattice, 1).unwrap()
+    }
+
+    #[test]
+    fn sand_is_conserved_and_comes_to_rest_below_repose() {
+        let lattice = lattice(64);
+        let model = SandLike::default();
+        let mut state = model.state(&lattice).unwrap();
+        let mut heights = noise(&lattice);
+        let before: f64 = heights.iter().sum();
+        let size: f64 = heights.iter().map(|height| height.abs()).sum();
+        let mut iterations = 0;
+        while model.step(&lattice, &mut state, &mut heights).unwrap() > 0 {
+            iterations += 1;
+            assert!((heights.iter().sum::<f64>() - before).abs() < 1e-12 * size);
+            assert!(iterations < 1000, "never at rest");
+        }
+        let steepest = model.repose_deg.to_radians().tan();
+        for node in 0..heights.len() {
+            for edge in lattice.neighbours(node) {
+                let fall = heights[node] - heights[edge.node];
+                assert!(fall <= steepest * edge.distance + 1e-9, "node {node}");
+            }
+        }
+        assert!(iterations > 10);
+    }
+
+    /// Definition 8: a slope that holds alone slips after a slip nearby, and not after one
+    /// beyond the radius.
+    #[test]
+    fn a_slip_makes_slips_within_the_radius_likelier() {
+        let lattice = lattice(32);
+        let model = SandLike { radius_m: 40.0, ..Default::default() };
+        let between = 10.0 * 29.0_f64.to_radians().tan();
+        let slips_with_trigger_at = |trigger: Option<usize>| {
+            let mut heights = vec![0.0; lattice.node_count()];
+            let gentle = lattice.node([16, 16, 0]);
+            heights[gentle] = between;
+            if let Some(column) = trigger {
+                heights[lattice.node([column, 16, 0])] = 7.0;
+            }
+            let mut state = model.state(&lattice).unwrap();
+            for _ in 0..2 {
+                model.step(&lattice, &mut state, &mut heights).unwrap();
+            }
+            heights[gentle] < between
+        };
+        assert!(!slips_with_trigger_at(None));
+        assert!(slips_with_trigger_at(Some(20)));
+        assert!(!slips_with_trigger_at(Some(21)));
+    }
+
+    #[test]
+    fn same_bits_on_any_number_of_threads() {
+        let lattice = lattice(48);
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let model = SandLike::default();
+                let mut state = model.state(&lattice).unwrap();
+                let mut heights = noise(&lattice);
+                for _ in 0..40 {
+                    model.step(&lattice, &mut state, &mut heights).unwrap();
+                }
+                (heights, state.shaken)
+            })
+        };
+        assert_eq!(on(1), on(8));
+    }
+
+    #[test]
+    fn parameters_out_of_range_are_refused() {
+        let lattice = lattice(16);
+        let usual = SandLike::default();
+        for refused in [
+            SandLike { repose_deg: 90.0, ..usual },
+            SandLike { shaken_deg: 34.0, ..usual },
+            SandLike { slab_m: 0.0, ..usual },
+            SandLike { slabs_together: 0, ..usual },
+            SandLike { radius_m: 80.0, ..usual },
+            SandLike { repose_deg: f64::NAN, ..usual },
+        ] {
+            assert!(refused.state(&lattice).is_err(), "{refused:?}");
+        }
+        let mut state = usual.state(&lattice).unwrap();
+        assert!(usual.step(&lattice, &mut state, &mut [0.0; 3]).is_err());
     }
 }

@@ -168,7 +168,9 @@ mod tests {
         let stream = RandomStream::new(2, "slabs");
         let mut pile = SlabPile::new(columns, together).unwrap();
         let transient = 8 * (columns * columns) as u64 * u64::from(together);
-        (0..transient).for_each(|number| drop(pile.add_at_random(&stream, number)));
+        (0..transient).for_each(|number| {
+            pile.add_at_random(&stream, number);
+        });
         (0..slabs).map(|number| pile.add_at_random(&stream, transient + number)).collect()
     }
 
