@@ -1,4 +1,34 @@
 //! Rasters and meshes, in and out.
+//!
+//! | format | read | written | metadata stand in |
+//! |---|---|---|---|
+//! | GeoTIFF `.tif` ([`geotiff`]) | yes | f64, f32, i16 | the file |
+//! | ESRI ASCII `.asc` ([`esri_ascii`]) | yes | every digit | a sidecar |
+//! | NumPy `.npy` ([`npy`]) | yes | f64, f32, i32, i16, u8 | a sidecar |
+//! | 16-bit grey `.png` ([`png16`]) | no | yes | the file |
+//! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
+//! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
+//!
+//! The sidecar of `height.npy` is `height.npy.json` ([`Sidecar`]). Every reader takes
+//! [`ReadLimits`], checks sizes before it takes memory, and turns cells without data into NaN;
+//! every writer fills a temporary file and renames it, so that no half-written file bears the
+//! name ([`atomic`]). Errors name the file, the place in it, what was expected and what to do.
+//!
+//! ```
+//! use landform_io::{IfExists, Metadata, Raster, read_raster, write_raster};
+//!
+//! let folder = std::env::temp_dir().join(format!("landform_io_doc_{}", std::process::id()));
+//! std::fs::create_dir_all(&folder)?;
+//! let path = folder.join("height.tif");
+//! let raster = Raster::local(3, 2, 10.0, vec![1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0]);
+//! let metadata = Metadata { unit: Some("m".into()), seed: Some(7), ..Metadata::default() };
+//! write_raster(&path, &raster, &metadata, IfExists::Refuse)?;
+//! let again = read_raster(&path)?;
+//! assert_eq!(again.spacing_m()?, 10.0);
+//! assert_eq!(again.missing_count(), 1);
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod atomic;
 mod error;

@@ -27,12 +27,7 @@ pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
     let mut tokens = Tokens::new(file);
     let header = header::read(&mut tokens).map_err(explain)?;
     let cells = limits.cells(path, &[header.columns, header.rows])?;
-    // A cell takes a digit and a separator, so a short file is known before memory is taken.
-    if length.div_ceil(2) < cells as u64 {
-        let problem = format!("the file has {length} bytes");
-        let expected = format!("at least {} bytes for {cells} cells", 2 * cells as u64 - 1);
-        return Err(cut_off(problem, expected, tokens.line()).reading(path));
-    }
+    check_length(length, cells as u64, tokens.line()).map_err(|fault| fault.reading(path))?;
     let mut values = Vec::with_capacity(cells);
     values.extend(header.first);
     read_values(&mut tokens, cells, &mut values).map_err(explain)?;
@@ -50,6 +45,15 @@ pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
     };
     let raster = raster.checked().map_err(|fault| fault.reading(path))?;
     Ok(RasterFile { raster, metadata, encoding })
+}
+
+/// A cell takes a digit and a separator, so a short file is known before memory is taken.
+fn check_length(length: u64, cells: u64, line: u64) -> Result<(), Fault> {
+    if length.div_ceil(2) >= cells {
+        return Ok(());
+    }
+    let expected = format!("at least {} bytes for {cells} cells", 2 * cells - 1);
+    Err(cut_off(format!("the file has {length} bytes"), expected, line))
 }
 
 fn read_values<R: Read>(

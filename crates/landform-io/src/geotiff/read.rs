@@ -53,6 +53,8 @@ fn decoder_limits(cells: usize) -> Limits {
     limits
 }
 
+const DAMAGED: &str = "the file is damaged: fetch or write it again";
+
 /// What the decoder found wrong, for the reader of the message.
 fn damage(error: TiffError, place: Place) -> Fault {
     let (expected, advice) = match &error {
@@ -64,9 +66,9 @@ fn damage(error: TiffError, place: Place) -> Fault {
             ("more bytes", "the file is cut off: fetch or write it again")
         }
         TiffError::LimitsExceeded | TiffError::IntSizeError => {
-            ("strips no larger than the image", "the file is damaged: fetch or write it again")
+            ("strips no larger than the image", DAMAGED)
         }
-        _ => ("a TIFF file", "the file is damaged: fetch or write it again"),
+        _ => ("a TIFF file", DAMAGED),
     };
     Fault::new(error.to_string(), expected, advice).at(place)
 }
@@ -85,8 +87,7 @@ fn chunk_size(tiff: &mut Tiff, [width, height]: [usize; 2]) -> Result<[usize; 2]
     match size {
         [0, _] | [_, 0] => {
             let problem = format!("strips or tiles of {} x {} cells", size[0], size[1]);
-            let advice = "the file is damaged: fetch or write it again";
-            Err(Fault::new(problem, "at least one cell", advice))
+            Err(Fault::new(problem, "at least one cell", DAMAGED))
         }
         size => Ok(size),
     }
@@ -95,28 +96,12 @@ fn chunk_size(tiff: &mut Tiff, [width, height]: [usize; 2]) -> Result<[usize; 2]
 /// The cells, strip by strip or tile by tile.
 fn read_cells(tiff: &mut Tiff, size: [usize; 2]) -> Result<Vec<f64>, Fault> {
     let [width, height] = size;
-    let bands = tiff.find_tag_unsigned::<u16>(Tag::SamplesPerPixel);
-    let bands = bands.map_err(|error| damage(error, Place::Whole))?.unwrap_or(1);
-    if bands != 1 {
-        let problem = format!("the image has {bands} bands");
-        let advice = "extract one, for example with gdal_translate -b 1";
-        return Err(Fault::new(problem, "one band of heights", advice));
-    }
+    check_bands(tiff)?;
     let chunk = chunk_size(tiff, size)?;
     let across = width.div_ceil(chunk[0]);
-    let count = across * height.div_ceil(chunk[1]);
-    let stored = match tiff.get_chunk_type() {
-        ChunkType::Strip => tiff.strip_count(),
-        ChunkType::Tile => tiff.tile_count(),
-    };
-    let stored = stored.map_err(|error| damage(error, Place::Whole))?;
-    if stored as usize != count {
-        let problem = format!("{stored} strips or tiles of {} x {} cells", chunk[0], chunk[1]);
-        let advice = "the file is damaged: fetch or write it again";
-        return Err(Fault::new(problem, format!("{count} to fill {width} x {height}"), advice));
-    }
+    let count = chunk_count(tiff, across * height.div_ceil(chunk[1]))?;
     let mut values = vec![0.0; width * height];
-    for index in 0..stored {
+    for index in 0..count {
         let place = Place::Chunk(index);
         let part = tiff.read_chunk(index).map_err(|error| damage(error, place))?;
         let column = index as usize % across * chunk[0];
@@ -125,16 +110,41 @@ fn read_cells(tiff: &mut Tiff, size: [usize; 2]) -> Result<Vec<f64>, Fault> {
         let rows = row..height.min(row + chunk[1]);
         let part = numbers(part);
         if part.len() < columns.len() * rows.len() {
-            let problem = format!("{} numbers", part.len());
             let expected = format!("{} x {}", columns.len(), rows.len());
-            let advice = "the file is damaged: fetch or write it again";
-            return Err(Fault::new(problem, expected, advice).at(place));
+            let fault = Fault::new(format!("{} numbers", part.len()), expected, DAMAGED);
+            return Err(fault.at(place));
         }
         for (row, part) in rows.zip(part.chunks(columns.len())) {
             values[row * width..][columns.clone()].copy_from_slice(part);
         }
     }
     Ok(values)
+}
+
+fn check_bands(tiff: &mut Tiff) -> Result<(), Fault> {
+    let bands = tiff.find_tag_unsigned::<u16>(Tag::SamplesPerPixel);
+    match bands.map_err(|error| damage(error, Place::Whole))?.unwrap_or(1) {
+        1 => Ok(()),
+        bands => {
+            let problem = format!("the image has {bands} bands");
+            let advice = "extract one, for example with gdal_translate -b 1";
+            Err(Fault::new(problem, "one band of heights", advice))
+        }
+    }
+}
+
+/// The number of strips or tiles, which must be what the size demands.
+fn chunk_count(tiff: &mut Tiff, demanded: usize) -> Result<u32, Fault> {
+    let count = match tiff.get_chunk_type() {
+        ChunkType::Strip => tiff.strip_count(),
+        ChunkType::Tile => tiff.tile_count(),
+    };
+    let count = count.map_err(|error| damage(error, Place::Whole))?;
+    if count as usize != demanded {
+        let problem = format!("the file has {count} strips or tiles");
+        return Err(Fault::new(problem, format!("{demanded} to fill the image"), DAMAGED));
+    }
+    Ok(count)
 }
 
 fn numbers(part: DecodingResult) -> Vec<f64> {

@@ -93,7 +93,7 @@ impl Image<'_> {
             SampleType::I16 => Predictor::Horizontal,
             _ => Predictor::None,
         };
-        let deflate = Compression::Deflate(DeflateLevel::Balanced);
+        let deflate = Compression::Deflate(DeflateLevel::Fast);
         let encoder = TiffEncoder::<_, K>::new_generic(writer)?;
         let encoder = encoder.with_compression(deflate).with_predictor(predictor);
         let numbers = &self.stored.numbers;
