@@ -1,14 +1,14 @@
 //! The nodes of a narrow band, earliest first.
 
-/// Children of an entry of the heap: four lie in one or two cache lines.
-const CHILDREN: usize = 4;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// A queue by time, ties by node. A node whose time falls is pushed again; whoever pops
 /// recognises and skips the entry that is out of date.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TimeQueue {
-    /// Times as integers of the same order, with nodes; no child comes before its parent.
-    heap: Vec<(i64, u32)>,
+    /// Times as integers of the same order, which compare faster, with nodes.
+    heap: BinaryHeap<Reverse<(i64, u32)>>,
 }
 
 /// An integer for a time that is a number: greater for later times. Its own inverse on bits.
@@ -27,50 +27,19 @@ impl TimeQueue {
     #[inline]
     pub fn push(&mut self, time: f64, node: usize) {
         // Adding 0 makes one zero of two.
-        let entry = (in_order((time + 0.0).to_bits() as i64), node as u32);
-        let mut hole = self.heap.len();
-        self.heap.push(entry);
-        while hole > 0 {
-            let parent = (hole - 1) / CHILDREN;
-            if self.heap[parent] <= entry {
-                break;
-            }
-            self.heap[hole] = self.heap[parent];
-            hole = parent;
-        }
-        self.heap[hole] = entry;
+        self.heap.push(Reverse((in_order((time + 0.0).to_bits() as i64), node as u32)));
     }
 
     /// Takes the earliest node.
     #[inline]
     pub fn pop(&mut self) -> Option<(f64, usize)> {
-        let last = self.heap.pop()?;
-        let (key, node) = self.heap.first().copied().unwrap_or(last);
-        self.sink(last);
+        let Reverse((key, node)) = self.heap.pop()?;
         Some((f64::from_bits(in_order(key) as u64), node as usize))
     }
 
     /// Takes all nodes in no particular order, some perhaps more than once.
     pub fn drain(&mut self) -> impl Iterator<Item = usize> + '_ {
-        self.heap.drain(..).map(|(_, node)| node as usize)
-    }
-
-    /// Puts an entry in place of the first.
-    fn sink(&mut self, entry: (i64, u32)) {
-        let mut hole = 0;
-        loop {
-            let first = hole * CHILDREN + 1;
-            let end = self.heap.len().min(first + CHILDREN);
-            let Some(least) = (first..end).min_by_key(|&child| self.heap[child]) else { break };
-            if self.heap[least] >= entry {
-                break;
-            }
-            self.heap[hole] = self.heap[least];
-            hole = least;
-        }
-        if let Some(place) = self.heap.get_mut(hole) {
-            *place = entry;
-        }
+        self.heap.drain().map(|Reverse((_, node))| node as usize)
     }
 }
 
