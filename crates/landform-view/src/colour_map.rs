@@ -27,7 +27,7 @@ macro_rules! tables {
 /// Every map, by name.
 static MAPS: &[ColourMap] = tables![
     "batlow", "broc", "bukavu", "cividis", "davos", "fes", "grayC", "lajolla", "lapaz", "oleron",
-    "sand", "turku", "viridis", "vik"
+    "sand", "turku", "vik", "viridis"
 ];
 
 /// A named table of 256 colours.
@@ -80,5 +80,61 @@ impl ColourMap {
 
     fn entry(&self, index: usize) -> [u8; 3] {
         std::array::from_fn(|channel| self.table[3 * index + channel])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::decode;
+
+    fn lightness(colour: [u8; 3]) -> f32 {
+        let [red, green, blue] = colour.map(decode);
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
+    /// First and last colours as published with the maps.
+    #[test]
+    fn tables_are_the_published_ones() {
+        for (name, first, last) in [
+            ("viridis", [68, 1, 84], [253, 231, 37]),
+            ("cividis", [0, 34, 78], [254, 232, 56]),
+            ("batlow", [1, 25, 89], [250, 204, 250]),
+            ("vik", [0, 18, 97], [89, 0, 8]),
+        ] {
+            let map = ColourMap::named(name).unwrap();
+            assert_eq!((map.colour(0.0), map.colour(1.0)), (first, last), "{name}");
+        }
+    }
+
+    #[test]
+    fn sequential_maps_grow_lighter_all_the_way() {
+        for name in ["batlow", "cividis", "davos", "lajolla", "lapaz", "sand", "turku", "viridis"] {
+            let map = ColourMap::named(name).unwrap();
+            let steps = (1..256).map(|i| lightness(map.entry(i)) - lightness(map.entry(i - 1)));
+            let (down, up) = steps.fold((0.0, 0.0), |(down, up), step| match step < 0.0 {
+                true => (down - step, up),
+                false => (down, up + step),
+            });
+            assert!(down < 0.02 * up, "{name}: {down} down, {up} up");
+        }
+    }
+
+    #[test]
+    fn names_are_sorted_and_found_again() {
+        assert!(ColourMap::names().is_sorted_by_key(str::to_lowercase));
+        for name in ColourMap::names() {
+            assert_eq!(ColourMap::named(name).unwrap().name(), name);
+        }
+        let message = ColourMap::named("Batlow").unwrap_err().to_string();
+        assert!(message.contains("`Batlow`") && message.contains("batlow, broc"), "{message}");
+    }
+
+    #[test]
+    fn values_outside_take_the_ends() {
+        let map = ColourMap::named("batlow").unwrap();
+        assert_eq!(map.colour(-3.0), map.colour(0.0));
+        assert_eq!(map.colour(f64::INFINITY), map.colour(1.0));
+        assert_eq!(map.colour(f64::NAN), map.colour(0.0));
     }
 }

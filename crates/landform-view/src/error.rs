@@ -50,10 +50,10 @@ pub enum ViewError {
         /// Number of rows.
         height: usize,
     },
-    /// A value that is infinite or not a number.
+    /// A value that is infinite, not a number, or too large to be one.
     #[error(
-        "{what} is {value} at column {column}, row {row}; it must be finite, so fill the gaps \
-         of the field first"
+        "{what} is {value} at column {column}, row {row}; it must be a number of at most 1e12, so \
+         fill the gaps of the field first"
     )]
     NotFinite {
         /// What has the value.

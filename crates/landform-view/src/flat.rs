@@ -161,3 +161,25 @@ fn tick_label(tick: f64, ticks: &[f64]) -> String {
     let digits = if step > 0.0 { (-step.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
     format!("{tick:.digits$}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_cover_the_range() {
+        assert_eq!(ticks([0.0, 10.0], 5), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
+        assert_eq!(ticks([-16.0, 16.0], 4), [-10.0, 0.0, 10.0]);
+        assert_eq!(ticks([16.0, -16.0], 4), [-10.0, 0.0, 10.0]);
+        assert_eq!(ticks([3.0, 3.0], 4), [3.0]);
+    }
+
+    #[test]
+    fn labels_have_the_digits_they_need() {
+        let label = |values: &[f64]| tick_label(values[0], values);
+        assert_eq!(label(&[0.05, 0.1]), "0.05");
+        assert_eq!(label(&[-20.0, 0.0]), "-20");
+        assert_eq!(label(&[2e7, 4e7]), "2.0e7");
+        assert_eq!(label(&[1500.0, 2000.0]), "1500");
+    }
+}

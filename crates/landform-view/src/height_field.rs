@@ -17,8 +17,9 @@ impl<'a> HeightField<'a> {
     ///
     /// # Errors
     /// [`ViewError::TooSmall`] without at least 2 x 2 nodes (a surface needs a cell),
-    /// [`ViewError::TooLarge`], [`ViewError::Length`], [`ViewError::Option`] for a spacing that
-    /// is not positive and finite, [`ViewError::NotFinite`] with the first bad node.
+    /// [`ViewError::TooLarge`], [`ViewError::Length`], [`ViewError::Option`] for a spacing out
+    /// of range, [`ViewError::NotFinite`] with the first node that is no height (beyond 1e12 m
+    /// nothing is).
     pub fn new(
         width: usize,
         height: usize,
@@ -30,9 +31,10 @@ impl<'a> HeightField<'a> {
             let (what, found) = ("a height field", heights.len());
             return Err(ViewError::Length { what, found, width, height });
         }
-        let range = [f64::MIN_POSITIVE, f64::MAX];
-        ViewError::check_option("spacing_m", spacing_m, range, "a positive number of metres")?;
-        if let Some(node) = heights.iter().position(|height| !height.is_finite()) {
+        let range = [1e-6, 1e9];
+        ViewError::check_option("spacing_m", spacing_m, range, "from 1e-6 to 1e9 metres")?;
+        if let Some(node) = heights.iter().position(|height| height.abs().total_cmp(&1e12).is_gt())
+        {
             let (column, row) = (node % width, node / width);
             let value = heights[node];
             return Err(ViewError::NotFinite { what: "the height", value, column, row });

@@ -35,7 +35,8 @@ pub(crate) fn sun_visibility(surface: &Surface, light: &Light) -> Vec<f32> {
 /// least `lowest`.
 fn steepest_rise(surface: &Surface, node: [usize; 2], step: [f32; 2], lowest: f32) -> f32 {
     let own = surface.heights[node[0] + surface.columns * node[1]];
-    let reach = (surface.highest - own) / lowest;
+    // Endless ground is looked over for its own length at most.
+    let reach = ((surface.highest - own) / lowest).min((surface.columns + surface.rows) as f32);
     let mut rise = lowest * 0.999;
     let mut distance = 1.0;
     while distance <= reach && rise * distance <= surface.highest - own {
@@ -56,9 +57,8 @@ fn interpolate(surface: &Surface, column: f32, row: f32) -> Option<f32> {
     }
     let (west, north) = (column.floor(), row.floor());
     let (x, y) = (column - west, row - north);
-    let (west, north) = (west as isize, north as isize);
-    let top = surface.at(west, north) * (1.0 - x) + surface.at(west + 1, north) * x;
-    let bottom = surface.at(west, north + 1) * (1.0 - x) + surface.at(west + 1, north + 1) * x;
+    let [a, b, c, d] = surface.corners(west as isize, north as isize);
+    let (top, bottom) = (a * (1.0 - x) + b * x, c * (1.0 - x) + d * x);
     Some(top * (1.0 - y) + bottom * y)
 }
 
@@ -123,10 +123,12 @@ fn probed_rise(surface: &Surface, [column, row]: [usize; 2], probes: &[Probe]) -
         let (x, y) = (column as isize + probe.column, row as isize + probe.row);
         let inside =
             x >= 0 && y >= 0 && (x as usize) < surface.columns && (y as usize) < surface.rows;
-        if !inside && !surface.periodic {
-            break;
-        }
-        steepest = steepest.max((surface.at(x, y) - own) * probe.inverse);
+        let height = match inside {
+            true => surface.heights[x as usize + surface.columns * y as usize],
+            false if surface.periodic => surface.at(x, y),
+            false => break,
+        };
+        steepest = steepest.max((height - own) * probe.inverse);
     }
     steepest / surface.spacing as f32
 }
@@ -134,7 +136,92 @@ fn probed_rise(surface: &Surface, [column, row]: [usize; 2], probes: &[Probe]) -
 /// View factor of one direction over the cosine of the slope: `rise` is the tangent of the
 /// horizon's elevation and `towards` the slope of the ground in that direction.
 fn view_share(rise: f32, towards: f32) -> f32 {
+    // Sine and cosine of the horizon's zenith angle from the tangent of its elevation.
+    let sin = 1.0 / (1.0 + rise * rise).sqrt();
+    let cos = rise * sin;
     let zenith = std::f32::consts::FRAC_PI_2 - rise.atan();
-    let (sin, cos) = zenith.sin_cos();
     sin * sin - towards * (zenith - sin * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::HeightField;
+    use crate::surface::Sampling;
+
+    fn surface(size: usize, periodic: bool, height: impl Fn(f64, f64) -> f64) -> Surface {
+        let heights: Vec<f64> =
+            (0..size * size).map(|i| height((i % size) as f64, (i / size) as f64)).collect();
+        let field = HeightField::new(size, size, 2.0, &heights).unwrap();
+        let (origin, step, smoothing, exaggeration) = (0.0, 1.0, 0.0, 1.0);
+        let size = [size, size];
+        let sampling = Sampling { size, origin, step, periodic, smoothing, exaggeration };
+        Surface::sample(&field, sampling).unwrap()
+    }
+
+    fn sun(bearing_deg: f64, altitude_deg: f64) -> Light {
+        Light { bearing_deg, altitude_deg, penumbra_deg: 0.05, ..Light::map() }
+    }
+
+    /// The shadow of a cone of height h ends h / tan(altitude) from its axis.
+    #[test]
+    fn a_cone_throws_the_shadow_of_its_height() {
+        let size = 121;
+        let cone = |x: f64, y: f64| (30.0 - 2.0 * (x - 40.0).hypot(y - 60.0)).max(0.0);
+        let surface = surface(size, false, cone);
+        for altitude in [15.0_f64, 30.0] {
+            let seen = sun_visibility(&surface, &sun(270.0, altitude));
+            let row = &seen[60 * size..61 * size];
+            let end = (42..size).find(|&column| row[column] > 0.5).unwrap() as f64;
+            let expected = 40.0 + 30.0 / altitude.to_radians().tan() / 2.0;
+            assert!((end - expected).abs() <= 1.0, "{altitude}: {end} instead of {expected}");
+            assert!(row[..39].iter().all(|&seen| seen > 0.99), "the sunny side is lit");
+        }
+    }
+
+    /// The march that gives up early against one that looks at everything.
+    #[test]
+    fn looking_only_as_far_as_needed_changes_nothing() {
+        let hills = |x: f64, y: f64| 9.0 * ((x / 5.0).sin() + (y / 7.0).cos() * (x / 11.0).cos());
+        let surface = surface(60, false, hills);
+        let (step, lowest) = ([0.6, -0.8], 0.3);
+        for node in 0..3600 {
+            let (column, row) = (node % 60, node / 60);
+            let own = surface.heights[node];
+            let rises = (1..90).map_while(|distance| {
+                let distance = distance as f32;
+                let place = [column as f32 + step[0] * distance, row as f32 + step[1] * distance];
+                Some((interpolate(&surface, place[0], place[1])? - own) / distance)
+            });
+            let full = rises.fold(lowest * 0.999, f32::max);
+            assert_eq!(steepest_rise(&surface, [column, row], step, lowest), full, "node {node}");
+        }
+    }
+
+    #[test]
+    fn a_plain_sees_the_whole_sky_and_a_ramp_the_cosine_share() {
+        assert!(sky_view(&surface(40, true, |_, _| 7.0)).iter().all(|&seen| seen == 1.0));
+        // The upper hemisphere seen from an endless slope: (1 + cos) / 2.
+        let ramp = surface(300, false, |x, _| 2.0 * x);
+        let expected = (1.0 + 45_f32.to_radians().cos()) / 2.0;
+        let seen = sky_view(&ramp)[150 + 300 * 150];
+        assert!((seen - expected).abs() < 0.01, "{seen} instead of {expected}");
+    }
+
+    #[test]
+    fn the_foot_of_a_high_wall_sees_half_of_the_sky() {
+        let wall = surface(300, false, |x, _| if x < 150.0 { 0.0 } else { 4e4 });
+        let seen = sky_view(&wall)[148 + 300 * 150];
+        assert!((seen - 0.5).abs() < 0.01, "{seen}");
+    }
+
+    /// A field that repeats casts its shadows over the seam.
+    #[test]
+    fn shadows_continue_at_the_other_side() {
+        let ridge = |x: f64, _: f64| if x > 56.0 { 10.0 } else { 0.0 };
+        let (open, closed) = (surface(60, false, ridge), surface(60, true, ridge));
+        let light = sun(270.0, 30.0);
+        assert!(sun_visibility(&open, &light)[2 + 60 * 30] > 0.99);
+        assert!(sun_visibility(&closed, &light)[2 + 60 * 30] < 0.01);
+    }
 }

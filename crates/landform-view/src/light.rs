@@ -65,7 +65,7 @@ pub(crate) fn smooth_step(low: f32, high: f32, value: f32) -> f32 {
 pub struct Light {
     /// Compass bearing of the sun in degrees: clockwise from north, 270 is the west.
     pub bearing_deg: f64,
-    /// Altitude of the sun above the horizon in degrees, above 0 and at most 90.
+    /// Altitude of the sun above the horizon in degrees, from 0.1 to 90.
     pub altitude_deg: f64,
     /// Colour of the sun.
     pub sun_colour: [u8; 3],
@@ -107,11 +107,11 @@ impl Light {
             bearing_deg: 290.0,
             altitude_deg: 28.0,
             sun_colour: [255, 232, 200],
-            sun: 1.45,
+            sun: 1.65,
             penumbra_deg: 0.8,
             shadow: 1.0,
-            sky_colour: [168, 196, 246],
-            sky: 0.34,
+            sky_colour: [150, 184, 250],
+            sky: 0.5,
             spread: 0.0,
         }
     }
@@ -120,8 +120,7 @@ impl Light {
     pub(crate) fn check(&self) -> Result<(), ViewError> {
         let check = ViewError::check_option;
         check("light.bearing_deg", self.bearing_deg, [-1e6, 1e6], "a bearing in degrees")?;
-        let least = f64::MIN_POSITIVE;
-        check("light.altitude_deg", self.altitude_deg, [least, 90.0], "above 0 and at most 90")?;
+        check("light.altitude_deg", self.altitude_deg, [0.1, 90.0], "from 0.1 to 90")?;
         check("light.sun", self.sun, [0.0, 100.0], "from 0 to 100")?;
         check("light.penumbra_deg", self.penumbra_deg, [0.0, 45.0], "from 0 to 45")?;
         check("light.shadow", self.shadow, [0.0, 1.0], "from 0 to 1")?;

@@ -165,3 +165,14 @@ fn draw_row(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_go_on_after_z() {
+        let names = [1, 2, 26, 27, 28, 52, 53, 702, 703].map(letter_name);
+        assert_eq!(names, ["a", "b", "z", "aa", "ab", "az", "ba", "zz", "aaa"]);
+    }
+}

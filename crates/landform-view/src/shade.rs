@@ -19,6 +19,9 @@ pub struct Ground {
     pub colours: ColourMap,
     /// Heights in metres of the first and the last colour; the field's own range when missing.
     pub range_m: Option<[f64; 2]>,
+    /// Height in metres of the middle colour, for maps with a break or a turn there such as
+    /// `oleron` (sea level) and `vik` (no change); halfway when missing.
+    pub middle_m: Option<f64>,
     /// Height in metres between contour lines; none when missing.
     pub contour_m: Option<f64>,
 }
@@ -26,7 +29,17 @@ pub struct Ground {
 impl Ground {
     /// Colours of a map over the whole range of heights, without contour lines.
     pub fn new(colours: ColourMap) -> Self {
-        Self { colours, range_m: None, contour_m: None }
+        Self { colours, range_m: None, middle_m: None, contour_m: None }
+    }
+
+    /// Place in the colour map of a height, on a surface whose heights have the range `own`.
+    fn place(&self, metres: f64, own: [f64; 2]) -> f64 {
+        let [low, high] = self.range_m.unwrap_or(own);
+        let middle = self.middle_m.unwrap_or(low / 2.0 + high / 2.0);
+        let upper = (metres - middle) * (high - low) >= 0.0;
+        let [start, end] = if upper { [middle, high] } else { [low, middle] };
+        let share = if end == start { f64::from(!upper) } else { (metres - start) / (end - start) };
+        0.5 * (share + f64::from(upper))
     }
 
     /// Checks the range and the contour interval.
@@ -34,6 +47,9 @@ impl Ground {
         let finite = [f64::MIN, f64::MAX];
         for height in self.range_m.unwrap_or_default() {
             ViewError::check_option("range_m", height, finite, "a finite height in metres")?;
+        }
+        if let Some(middle) = self.middle_m {
+            ViewError::check_option("middle_m", middle, finite, "a finite height in metres")?;
         }
         let interval = self.contour_m.unwrap_or(1.0);
         let range = [f64::MIN_POSITIVE, f64::MAX];
@@ -46,15 +62,14 @@ pub(crate) fn shade(surface: &Surface, ground: &Ground, light: &Light) -> Vec<Rg
     let sun = sun_visibility(surface, light);
     let sky = sky_view(surface);
     let lamp = Lamp::new(light);
-    let [low, high] = ground.range_m.unwrap_or([surface.datum, surface.metres(surface.highest)]);
-    let span = if high == low { 1.0 } else { high - low };
+    let range = [surface.datum, surface.metres(surface.highest)];
     let mut colours = vec![[0.0; 3]; sun.len()];
     colours.par_chunks_mut(surface.columns).enumerate().for_each(|(row, line)| {
         for (column, colour) in line.iter_mut().enumerate() {
             let node = column + surface.columns * row;
             let metres = surface.metres(surface.heights[node]);
             let slope = surface.slope(column, row);
-            let mut own = ground.colours.linear((metres - low) / span);
+            let mut own = ground.colours.linear(ground.place(metres, range));
             if let Some(interval) = ground.contour_m {
                 own = own.map(|channel| channel * contour(surface, metres, slope, interval));
             }
@@ -111,4 +126,48 @@ fn contour(surface: &Surface, metres: f64, [east, north]: [f32; 2], interval: f6
     let rise = f64::from(east.hypot(north)) * surface.spacing / surface.exaggeration;
     let nodes = to_line / rise.max(1e-12);
     0.55 + 0.45 * (nodes - 0.3).clamp(0.0, 1.0) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_take_their_places_around_the_middle() {
+        let mut ground = Ground::new(ColourMap::named("oleron").unwrap());
+        let own = [-400.0, 100.0];
+        assert_eq!(ground.place(-150.0, own), 0.5);
+        assert_eq!(ground.place(100.0, own), 1.0);
+        ground.middle_m = Some(0.0);
+        assert_eq!(
+            [-400.0, -100.0, 0.0, 50.0].map(|z| ground.place(z, own)),
+            [0.0, 0.375, 0.5, 0.75]
+        );
+        ground.range_m = Some([10.0, -10.0]);
+        assert_eq!([10.0, 5.0, 0.0, -10.0].map(|z| ground.place(z, own)), [0.0, 0.25, 0.5, 1.0]);
+        // A plain has one colour, whatever its height.
+        let plain = Ground { range_m: None, middle_m: None, ..ground };
+        assert_eq!(plain.place(7.0, [7.0, 7.0]), 0.5);
+    }
+
+    /// Contour lines run where heights are multiples of the interval and nowhere else.
+    #[test]
+    fn contour_lines_follow_the_heights() {
+        let heights: Vec<f64> = (0..400).map(|node| f64::from(node % 40)).collect();
+        let field = crate::HeightField::new(40, 10, 1.0, &heights).unwrap();
+        let sampling = crate::surface::Sampling {
+            size: [40, 10],
+            origin: 0.0,
+            step: 1.0,
+            periodic: false,
+            smoothing: 0.0,
+            exaggeration: 3.0,
+        };
+        let surface = Surface::sample(&field, sampling).unwrap();
+        for column in 0..40 {
+            let metres = surface.metres(surface.heights[column]);
+            let dark = contour(&surface, metres, surface.slope(column, 5), 10.0) < 0.7;
+            assert_eq!(dark, column % 10 == 0, "column {column}");
+        }
+    }
 }

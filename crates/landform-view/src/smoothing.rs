@@ -39,3 +39,28 @@ fn weights(deviation: f64) -> Vec<f32> {
     let sum: f64 = (-reach..=reach).map(weight).sum();
     (-reach..=reach).map(|offset| (weight(offset) / sum) as f32).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spike_becomes_a_gaussian_of_the_same_volume() {
+        for periodic in [true, false] {
+            let mut heights = vec![0.0; 31 * 25];
+            heights[15 + 31 * 12] = 100.0;
+            smooth(&mut heights, 31, 1.5, periodic);
+            let volume: f32 = heights.iter().sum();
+            assert!((volume - 100.0).abs() < 1e-3, "{volume}");
+            let ratio = heights[18 + 31 * 12] / heights[15 + 31 * 12];
+            assert!((ratio - (-2.0_f32).exp()).abs() < 1e-4, "two deviations away: {ratio}");
+        }
+    }
+
+    #[test]
+    fn no_deviation_changes_nothing() {
+        let mut heights = vec![1.0, 5.0, 2.0, 8.0];
+        smooth(&mut heights, 2, 0.0, false);
+        assert_eq!(heights, [1.0, 5.0, 2.0, 8.0]);
+    }
+}

@@ -5,6 +5,10 @@ use rayon::prelude::*;
 use crate::smoothing::smooth;
 use crate::{HeightField, ViewError};
 
+/// Greatest ratio of the relief to the field's longer side. Beyond it rays lose their precision,
+/// and a picture could show nothing but a line.
+const STEEPEST: f64 = 1e4;
+
 /// A fine grid of heights between which pictures interpolate.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
@@ -50,7 +54,8 @@ impl Surface {
     pub(crate) fn sample(field: &HeightField<'_>, sampling: Sampling) -> Result<Self, ViewError> {
         let [columns, rows] = sampling.size;
         ViewError::check_size("the resampled surface", sampling.size, 2)?;
-        let [datum, _] = field.range();
+        let [datum, top] = field.range();
+        check_relief(field, top - datum, sampling.exaggeration)?;
         let block = (sampling.step.floor() as usize).max(1);
         let nodes = [field.width(), field.height()];
         let coarse = Nodes::average(field, datum, &sampling, block);
@@ -79,6 +84,23 @@ impl Surface {
         self.heights[column + self.columns * row]
     }
 
+    /// Heights of the corners of the cell south-east of a node: north-west, north-east,
+    /// south-west, south-east.
+    #[inline]
+    pub(crate) fn corners(&self, column: isize, row: isize) -> [f32; 4] {
+        let inside = column >= 0
+            && row >= 0
+            && (column as usize) + 1 < self.columns
+            && (row as usize) + 1 < self.rows;
+        if inside {
+            let node = column as usize + self.columns * row as usize;
+            let south = node + self.columns;
+            let heights = &self.heights;
+            return [heights[node], heights[node + 1], heights[south], heights[south + 1]];
+        }
+        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(east, south)| self.at(column + east, row + south))
+    }
+
     /// Slope at a node towards the east and the north by central differences; one-sided at
     /// open edges.
     pub(crate) fn slope(&self, column: usize, row: usize) -> [f32; 2] {
@@ -105,6 +127,25 @@ impl Surface {
     pub(crate) fn raised(&self, metres: f64) -> f32 {
         ((metres - self.datum) * self.exaggeration) as f32
     }
+}
+
+/// Refuses a height above or below the datum, in metres, that is absurd for the width of its
+/// field.
+pub(crate) fn check_relief(
+    field: &HeightField<'_>,
+    relief_m: f64,
+    exaggeration: f64,
+) -> Result<(), ViewError> {
+    let side = field.width().max(field.height()) as f64 * field.spacing_m();
+    if relief_m.abs() * exaggeration <= STEEPEST * side {
+        return Ok(());
+    }
+    Err(ViewError::Option {
+        name: "vertical_exaggeration",
+        value: exaggeration,
+        expected: "so small that relief, water and block are at most 10000 times as high as the \
+                   field is long; check the spacing of the field too",
+    })
 }
 
 /// Index of a node, kept in the grid by clamping or by wrapping.
@@ -164,14 +205,24 @@ impl Stop {
         let place = sampling.origin + sampling.step * index as f64;
         let centre = (block as f64 - 1.0) / 2.0;
         let place = (place - centre) / block as f64;
-        let first = place.floor();
-        let share = (place - first) as f32;
-        let first = first as isize;
-        let mut weights = catmull_rom(share);
-        if !sampling.periodic {
-            extend_straight(&mut weights, first, nodes);
+        if sampling.periodic {
+            let first = place.floor();
+            let weights = catmull_rom((place - first) as f32);
+            return Self::around(first as isize, weights, nodes, true);
         }
-        let node = |offset| bound(first + offset, nodes, sampling.periodic);
+        let last = (nodes - 1) as f64;
+        let inside = place.clamp(0.0, last);
+        let first = inside.floor().min(last - 1.0).max(0.0);
+        let mut weights = catmull_rom((inside - first) as f32);
+        extend_straight(&mut weights, first as usize, nodes);
+        // Beyond the first and the last node the slope between the outermost two goes on.
+        weights[1] -= (place - inside) as f32;
+        weights[2] += (place - inside) as f32;
+        Self::around(first as isize, weights, nodes, false)
+    }
+
+    fn around(first: isize, weights: [f32; 4], nodes: usize, periodic: bool) -> Self {
+        let node = |offset| bound(first + offset, nodes, periodic);
         Self { nodes: [node(-1), node(0), node(1), node(2)], weights }
     }
 }
@@ -188,15 +239,68 @@ fn catmull_rom(share: f32) -> [f32; 4] {
 }
 
 /// Replaces a missing outer node by the straight continuation of the two beside it.
-fn extend_straight(weights: &mut [f32; 4], first: isize, nodes: usize) {
+fn extend_straight(weights: &mut [f32; 4], first: usize, nodes: usize) {
     if first == 0 {
         weights[1] += 2.0 * weights[0];
         weights[2] -= weights[0];
         weights[0] = 0.0;
     }
-    if first + 2 == nodes as isize {
+    if first + 2 >= nodes {
         weights[2] += 2.0 * weights[3];
         weights[1] -= weights[3];
         weights[3] = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(heights: &[f64], width: usize, sampling: Sampling) -> Surface {
+        let height = heights.len() / width;
+        let field = HeightField::new(width, height, 1.0, heights).unwrap();
+        Surface::sample(&field, sampling).unwrap()
+    }
+
+    fn sampling(size: [usize; 2], origin: f64, step: f64) -> Sampling {
+        Sampling { size, origin, step, periodic: false, smoothing: 0.0, exaggeration: 2.0 }
+    }
+
+    /// Inside, between, beyond and coarser than the nodes a plane stays a plane.
+    #[test]
+    fn a_plane_stays_a_plane() {
+        let plane = |x: f64, y: f64| 5.0 + 0.5 * x - 0.25 * y;
+        let heights: Vec<f64> =
+            (0..24 * 16).map(|i| plane((i % 24) as f64, (i / 24) as f64)).collect();
+        for (size, origin, step) in
+            [([96, 64], -0.375, 0.25), ([24, 16], 0.0, 1.0), ([8, 5], 1.0, 3.0)]
+        {
+            let surface = sampled(&heights, 24, sampling(size, origin, step));
+            for (node, &height) in surface.heights.iter().enumerate() {
+                let place = |index: usize| origin + step * index as f64;
+                let expected = plane(place(node % size[0]), place(node / size[0]));
+                let metres = surface.metres(height);
+                assert!((metres - expected).abs() < 1e-4, "{metres} instead of {expected}");
+            }
+            let [east, north] = surface.slope(0, size[1] - 1);
+            assert!((east - 1.0).abs() < 1e-4 && (north - 0.5).abs() < 1e-4, "{east} {north}");
+        }
+    }
+
+    #[test]
+    fn the_nodes_keep_their_heights() {
+        let heights: Vec<f64> = (0..35).map(|i| f64::from(i * i % 11)).collect();
+        let surface = sampled(&heights, 7, sampling([13, 9], 0.0, 0.5));
+        for (node, &height) in heights.iter().enumerate() {
+            let fine = 2 * (node % 7) + 13 * 2 * (node / 7);
+            assert_eq!(surface.metres(surface.heights[fine]), height);
+        }
+    }
+
+    #[test]
+    fn heights_and_metres_are_inverse() {
+        let surface = sampled(&[3.0, 4.0, 5.0, 9.0], 2, sampling([2, 2], 0.0, 1.0));
+        assert_eq!((surface.datum, surface.highest), (3.0, 12.0));
+        assert_eq!(surface.metres(surface.raised(4.5)), 4.5);
     }
 }

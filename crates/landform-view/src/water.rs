@@ -25,7 +25,7 @@ impl Water {
 
     pub(crate) fn check(&self) -> Result<(), ViewError> {
         let check = ViewError::check_option;
-        check("water.level_m", self.level_m, [f64::MIN, f64::MAX], "a finite height in metres")?;
+        check("water.level_m", self.level_m, [-1e12, 1e12], "a height in metres")?;
         let range = [f64::MIN_POSITIVE, f64::MAX];
         check("water.clear_m", self.clear_m, range, "a positive number of metres")
     }

@@ -9,8 +9,8 @@ use gif::{AnyExtension, Encoder, Frame, Repeat};
 use crate::atomic_file::{AtomicFile, write_error};
 use crate::{Image, ViewError};
 
-/// Thoroughness of the palette search, from 1 (slow) to 30 (fast).
-const PALETTE_SPEED: i32 = 10;
+/// About how many pixels of a frame its palette is learnt from.
+const PALETTE_SAMPLE: usize = 60_000;
 
 /// Label of a comment block (GIF89a specification, section 24).
 const COMMENT: AnyExtension = AnyExtension(0xFE);
@@ -50,7 +50,9 @@ impl GifFile {
     pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
         let [width, height] = self.size;
         let pixels = image.rgb.as_flattened();
-        let mut frame = Frame::from_rgb_speed(width, height, pixels, PALETTE_SPEED);
+        // Every so many pixels count; the encoder allows up to every thirtieth.
+        let every = (image.rgb.len() / PALETTE_SAMPLE).clamp(1, 30) as i32;
+        let mut frame = Frame::from_rgb_speed(width, height, pixels, every);
         frame.delay = self.delay;
         let problem = |error| ViewError::format(self.guard.target(), error);
         self.encoder.write_frame(&frame).map_err(problem)

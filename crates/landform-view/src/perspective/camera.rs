@@ -96,3 +96,59 @@ impl Camera {
         (self.right * middle(0) - self.up * middle(1)) * (2.0 / self.size[0])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Looking north from the origin with a right angle of view: a point as far east as north
+    /// is on the right edge, one half as high as far is a quarter of the width above the middle.
+    #[test]
+    fn known_points_appear_where_they_should() {
+        let camera = Camera::new(DVec3::ZERO, 0.0, 0.0, 90.0, [200, 100]);
+        let place = |x, y, z| camera.project(DVec3::new(x, y, z)).unwrap();
+        for (found, expected) in [
+            (place(0.0, 5.0, 0.0), [100.0, 50.0]),
+            (place(3.0, 3.0, 0.0), [200.0, 50.0]),
+            (place(0.0, 4.0, 2.0), [100.0, 0.0]),
+            (place(-4.0, 4.0, -2.0), [0.0, 100.0]),
+        ] {
+            assert!((found[0] - expected[0]).abs() < 1e-9, "{found:?} {expected:?}");
+            assert!((found[1] - expected[1]).abs() < 1e-9, "{found:?} {expected:?}");
+        }
+        assert_eq!(camera.project(DVec3::new(0.0, -1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn rays_go_to_the_points_they_show() {
+        for (bearing, pitch) in [(30.0, 32.0), (200.0, 0.0), (90.0, 90.0)] {
+            let camera = Camera::new(DVec3::new(5.0, -7.0, 40.0), bearing, pitch, 35.0, [320, 240]);
+            let point = camera.position + camera.ray(123.5, 77.25) * 80.0;
+            let place = camera.project(point).unwrap();
+            assert!((place[0] - 123.5).abs() < 1e-9 && (place[1] - 77.25).abs() < 1e-9);
+        }
+    }
+
+    /// Everything is inside, and on two opposite sides it reaches the margin.
+    #[test]
+    fn framing_fills_the_picture() {
+        let corner = |i: usize| {
+            let part = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { 0.0 };
+            DVec3::new(300.0 * part(0), 100.0 * part(1), 20.0 * part(2))
+        };
+        let points: Vec<DVec3> = (0..8).map(corner).collect();
+        for (bearing, pitch) in [(30.0, 32.0), (0.0, 10.0), (135.0, 80.0)] {
+            let camera = Camera::new(DVec3::ZERO, bearing, pitch, 30.0, [400, 300]);
+            let camera = camera.framing(&points, 0.05);
+            let places: Vec<[f64; 2]> = points.iter().filter_map(|&p| camera.project(p)).collect();
+            assert_eq!(places.len(), 8);
+            let range = |axis: usize| {
+                let values = places.iter().map(|place| place[axis]);
+                (values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max))
+            };
+            let ((left, right), (top, foot)) = (range(0), range(1));
+            assert!(left > 19.0 && right < 381.0 && top > 14.0 && foot < 286.0);
+            assert!((left - 20.0).abs() < 1.0 || (top - 15.0).abs() < 1.0, "{left} {top}");
+        }
+    }
+}

@@ -7,6 +7,10 @@ use crate::surface::Surface;
 /// How far a ray is pushed over the edge between two cells, in cells.
 const NUDGE: f64 = 1e-7;
 
+/// Most steps of a ray for each column and row of the surface. Grazing rays over endless ground
+/// need a few dozen; the limit ends rays that rounding has brought to a stand.
+const STEPS: usize = 256;
+
 /// A ray over a surface: column, row and height at its start and their change a metre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
@@ -54,7 +58,7 @@ impl<'a> Marcher<'a> {
         let edge = usize::from(!surface.periodic);
         let (columns, rows) = (surface.columns - edge, surface.rows - edge);
         let cell = |column: usize, row: usize| {
-            let corners = corners(surface, column, row);
+            let corners = surface.corners(column as isize, row as isize);
             corners.into_iter().fold(f32::NEG_INFINITY, f32::max)
         };
         let mut levels = vec![Maxima::of(columns, rows, cell)];
@@ -73,7 +77,11 @@ impl<'a> Marcher<'a> {
         let nudge = if speed > 0.0 { NUDGE / speed } else { f64::INFINITY };
         let [mut from, end] = range;
         let mut level = top;
-        while from <= end {
+        let budget = STEPS * (self.levels[0].columns + self.levels[0].rows + 16);
+        for _ in 0..budget {
+            if from > end {
+                break;
+            }
             let cell = self.cell(ray, from);
             let exit = self.exit(ray, cell, level).max(from).min(end);
             let lowest = ray.at(from)[2].min(ray.at(exit)[2]);
@@ -86,7 +94,8 @@ impl<'a> Marcher<'a> {
                     return Some(distance);
                 }
             }
-            from = exit + nudge;
+            // Far away the nudge would be lost in rounding, and the march would stand still.
+            from = exit + nudge.max(exit * 4e-15);
             level = (level + 1).min(top);
         }
         None
@@ -136,7 +145,8 @@ impl<'a> Marcher<'a> {
     /// First distance in a range at which the ray is on or below the bilinear patch of a cell.
     fn patch(&self, ray: &Ray, cell: [isize; 2], [from, exit]: [f64; 2]) -> Option<f64> {
         let [column, row] = self.local(cell);
-        let [a, east, south, both] = corners(self.surface, column, row).map(f64::from);
+        let [a, east, south, both] =
+            self.surface.corners(column as isize, row as isize).map(f64::from);
         let (b, c, d) = (east - a, south - a, a + both - east - south);
         let [x, y, z] = ray.at(from);
         let (u, v) = (x - cell[0] as f64, y - cell[1] as f64);
@@ -169,12 +179,6 @@ impl Maxima {
     }
 }
 
-/// Heights of the corners of a cell: north-west, north-east, south-west, south-east.
-fn corners(surface: &Surface, column: usize, row: usize) -> [f32; 4] {
-    let (x, y) = (column as isize, row as isize);
-    [surface.at(x, y), surface.at(x + 1, y), surface.at(x, y + 1), surface.at(x + 1, y + 1)]
-}
-
 /// Least `s >= 0` at which `constant + linear * s + square * s^2` is not positive.
 fn first_crossing(constant: f64, linear: f64, square: f64) -> Option<f64> {
     if constant <= 0.0 {
@@ -188,4 +192,104 @@ fn first_crossing(constant: f64, linear: f64, square: f64) -> Option<f64> {
     let sum = -0.5 * (linear + discriminant.sqrt().copysign(linear));
     let roots = [sum / square, constant / sum];
     roots.into_iter().filter(|root| *root >= 0.0 && root.is_finite()).min_by(f64::total_cmp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::HeightField;
+    use crate::surface::Sampling;
+
+    /// Reference: the first of the crossings with the patches of all cells.
+    fn hit_of_all_cells(marcher: &Marcher<'_>, ray: &Ray, range: [f64; 2]) -> Option<f64> {
+        let Maxima { columns, rows, .. } = marcher.levels[0];
+        let cells = (0..columns * rows).map(|cell| [cell % columns, cell / columns]);
+        let hits = cells.filter_map(|[column, row]| {
+            let over = ray.clip(0, column as f64, column as f64 + 1.0, range);
+            let over = ray.clip(1, row as f64, row as f64 + 1.0, over);
+            let cell = [column as isize, row as isize];
+            (over[0] <= over[1]).then(|| marcher.patch(ray, cell, over)).flatten()
+        });
+        hits.min_by(f64::total_cmp)
+    }
+
+    fn hills(periodic: bool) -> Surface {
+        let (width, height) = (37, 23);
+        let turn = std::f64::consts::TAU;
+        let heights: Vec<f64> = (0..width * height)
+            .map(|node| {
+                let (x, y) = (node % width, node / width);
+                let (x, y) = (x as f64 / width as f64 * turn, y as f64 / height as f64 * turn);
+                6.0 * (2.0 * x).sin() + 5.0 * (3.0 * y + x).cos() + 0.1 * ((node * 7) % 13) as f64
+            })
+            .collect();
+        let field = HeightField::new(width, height, 2.0, &heights).unwrap();
+        let (origin, step, smoothing, exaggeration) = (0.0, 1.0, 0.0, 1.0);
+        let size = [width, height];
+        let sampling = Sampling { size, origin, step, periodic, smoothing, exaggeration };
+        Surface::sample(&field, sampling).unwrap()
+    }
+
+    /// Rays from above towards scattered places, steep and grazing.
+    fn rays() -> impl Iterator<Item = Ray> {
+        (0..600_u32).map(|index| {
+            let part = |prime: u32| f64::from(index * prime % 599) / 599.0;
+            let origin = [36.0 * part(7), 22.0 * part(11), 24.0 + 30.0 * part(13)];
+            let step = [part(17) - 0.5, part(19) - 0.5, -0.02 - part(23) * part(23)];
+            Ray { origin, step }
+        })
+    }
+
+    #[test]
+    fn skipping_by_maxima_finds_the_same_hits_as_trying_every_cell() {
+        let surface = hills(false);
+        let marcher = Marcher::new(&surface);
+        let mut hits = 0;
+        for ray in rays() {
+            let range = ray.clip(0, 0.0, 36.0, [0.0, 1e3]);
+            let range = ray.clip(1, 0.0, 22.0, range);
+            let (found, expected) =
+                (marcher.hit(&ray, range), hit_of_all_cells(&marcher, &ray, range));
+            hits += usize::from(found.is_some());
+            match (found, expected) {
+                (Some(found), Some(expected)) => assert!((found - expected).abs() < 1e-5),
+                _ => assert_eq!(found.is_some(), expected.is_some(), "{ray:?}"),
+            }
+        }
+        assert!((100..600).contains(&hits), "{hits} hits prove little");
+    }
+
+    /// Over endless ground a ray meets the same hills a period further on.
+    #[test]
+    fn endless_ground_repeats() {
+        let surface = hills(true);
+        let marcher = Marcher::new(&surface);
+        for mut ray in rays() {
+            let here = marcher.hit(&ray, [0.0, 1e4]).unwrap();
+            ray.origin[0] -= 3.0 * 37.0;
+            ray.origin[1] += 2.0 * 23.0;
+            let there = marcher.hit(&ray, [0.0, 1e4]).unwrap();
+            assert!((here - there).abs() < 1e-6, "{here} and {there}");
+        }
+    }
+
+    #[test]
+    fn vertical_rays_meet_the_height_below() {
+        let surface = hills(false);
+        let marcher = Marcher::new(&surface);
+        let ray = Ray { origin: [8.0, 5.0, 100.0], step: [0.0, 0.0, -1.0] };
+        let height = f64::from(surface.at(8, 5));
+        let found = marcher.hit(&ray, [0.0, 1e3]).unwrap();
+        assert!((found - (100.0 - height)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn first_crossings_are_those_of_the_quadratic_formula() {
+        assert_eq!(first_crossing(-1.0, 5.0, 5.0), Some(0.0));
+        assert_eq!(first_crossing(6.0, -5.0, 1.0), Some(2.0));
+        assert_eq!(first_crossing(4.0, -2.0, 0.0), Some(2.0));
+        assert_eq!(first_crossing(4.0, 2.0, 0.0), None);
+        assert_eq!(first_crossing(5.0, 1.0, 1.0), None);
+        assert_eq!(first_crossing(6.0, 1.0, -1.0), Some(3.0));
+    }
 }
