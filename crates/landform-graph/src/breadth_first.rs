@@ -71,6 +71,10 @@ impl Visit {
 /// cleared, so that every agent on a lattice of a million nodes may search a small radius.
 /// Nothing is allocated once the memory fits the lattice.
 ///
+/// Limits: the radius is that of the path's displacement, so on a lattice that closes on
+/// itself a node is judged by the way on which it was first met. With a filter, a node within
+/// the radius is found only over paths that stay within it.
+///
 /// ```
 /// use landform_graph::{Boundary, BreadthFirst, Connectivity, Lattice, Reach};
 /// let lattice = Lattice::plane([9, 9], 1.0, Connectivity::Four, [Boundary::Open; 2])?;

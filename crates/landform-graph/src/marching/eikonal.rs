@@ -68,6 +68,10 @@ pub struct Arrivals<'a> {
 /// with [`Order::Second`] away from obstacles and from where fronts meet; close to a source
 /// of a single node both are of first order, as the front is sharply curved there.
 ///
+/// Second differences underestimate where a front is curved within a spacing or two. To have
+/// second order all over, start from the exact times of the nodes within a few spacings of
+/// a source. Where speeds jump or fronts go round an obstacle, both orders are of first.
+///
 /// Cost: that of the nodes reached, times the logarithm of the width of the front; nothing
 /// that the front does not reach is touched.
 ///

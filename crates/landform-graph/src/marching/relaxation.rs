@@ -17,6 +17,14 @@ const BUCKETS: usize = 64;
 /// Scheme: nodes wait in buckets of values (Dial 1969; delta-stepping, Meyer and Sanders
 /// 2003). The nodes of the lowest bucket are relaxed together, in node order, which visits
 /// memory nearly in sequence and needs no heap.
+///
+/// Cost: that of the nodes whose values fall, each visited little more than once where costs
+/// vary by a few times; nothing else is touched, so that a local change costs what it
+/// reaches. Where some costs are thousands of times smaller than `width`, nodes of one bucket
+/// are visited several times, at no change of the result.
+///
+/// Limits: costs must not depend on the values that are relaxed, and when a cost rises the
+/// values that rested on it do not: reset them before relaxing again from around them.
 #[derive(Clone, Debug)]
 pub struct Relaxation {
     buckets: Vec<Vec<u32>>,

@@ -13,6 +13,10 @@ use crate::{Connectivity, Lattice};
 /// Writes the derivatives of `field` to the east and to the north, in units of the field a
 /// metre, at every node. All slices hold one value a node.
 ///
+/// The values are those of [`Quadric::fit`], bit for bit, on any number of threads; of a
+/// volume's gradient the upward part is left out. Cost: inner nodes of a plane are computed
+/// from row windows at a small multiple of a memory copy, all others one by one.
+///
 /// # Panics
 /// If a slice is not as long as the lattice.
 pub fn gradient_field(lattice: &Lattice, field: &[f64], east: &mut [f64], north: &mut [f64]) {
@@ -38,6 +42,10 @@ pub fn gradient_field(lattice: &Lattice, field: &[f64], east: &mut [f64], north:
 
 /// Writes the Laplacian of `field`, in units of the field a square metre, at every node.
 /// Both slices hold one value a node.
+///
+/// The values are those of [`Quadric::fit`], bit for bit, on any number of threads. They are
+/// derivatives of the fitted surface, not fluxes: an explicit step of diffusion with them
+/// does not conserve volume at open borders.
 ///
 /// # Panics
 /// If a slice is not as long as the lattice.
