@@ -52,7 +52,8 @@ fn steepest_rise(surface: &Surface, node: [usize; 2], step: [f32; 2], lowest: f3
 /// Height between nodes, bilinear; nothing beyond open edges.
 fn interpolate(surface: &Surface, column: f32, row: f32) -> Option<f32> {
     let inside = |place: f32, size: usize| place >= 0.0 && place <= (size - 1) as f32;
-    if !surface.periodic && !(inside(column, surface.columns) && inside(row, surface.rows)) {
+    let known = inside(column, surface.columns) && inside(row, surface.rows);
+    if !(known || surface.periodic) {
         return None;
     }
     let (west, north) = (column.floor(), row.floor());
