@@ -56,7 +56,7 @@ pub enum IoError {
         /// The file.
         path: PathBuf,
         /// What is wrong, and where.
-        fault: Fault,
+        fault: Box<Fault>,
     },
     /// More cells than the caller allows.
     #[error(
@@ -94,7 +94,7 @@ pub enum IoError {
         /// The output.
         path: PathBuf,
         /// What is wrong, and where.
-        fault: Fault,
+        fault: Box<Fault>,
     },
 }
 
@@ -139,12 +139,12 @@ impl Fault {
 
     /// The fault as an error of reading `path`.
     pub fn reading(self, path: &Path) -> IoError {
-        IoError::Content { path: path.into(), fault: self }
+        IoError::Content { path: path.into(), fault: Box::new(self) }
     }
 
     /// The fault as an error of writing `path`.
     pub fn writing(self, path: &Path) -> IoError {
-        IoError::Unwritable { path: path.into(), fault: self }
+        IoError::Unwritable { path: path.into(), fault: Box::new(self) }
     }
 }
 
