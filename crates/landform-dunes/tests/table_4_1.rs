@@ -12,18 +12,25 @@ use landform_dunes::dunes::{
 use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_sim::random::{RandomStream, unit};
 
-/// White noise on a level field of sand: mean and amplitude of its thickness, metres.
+/// Random thickness of sand: white noise between two bounds, then hills made of it.
 struct InitialCondition {
+    /// Mean thickness in metres.
     mean_m: f64,
-    amplitude_m: f64,
+    /// Standard deviation of the thickness in metres.
+    deviation_m: f64,
+    /// Length over which the noise is smoothed (standard deviation of the kernel), metres.
+    length_m: f64,
     /// Wind strength that the thesis gives for protection, metres.
     protection_hop_m: f64,
 }
 
+/// Hills of sand: much sand, high relief.
 const IC1: InitialCondition =
-    InitialCondition { mean_m: 60.0, amplitude_m: 40.0, protection_hop_m: 80.0 };
+    InitialCondition { mean_m: 180.0, deviation_m: 60.0, length_m: 40.0, protection_hop_m: 80.0 };
+
+/// A thin sheet of sand, rough and without hills. White noise of 8 m and 4 m to either side.
 const IC2: InitialCondition =
-    InitialCondition { mean_m: 8.0, amplitude_m: 4.0, protection_hop_m: 0.0 };
+    InitialCondition { mean_m: 8.0, deviation_m: 2.31, length_m: 0.0, protection_hop_m: 0.0 };
 
 /// What table 4.1 holds, all in per cent.
 struct Row {
@@ -39,12 +46,22 @@ fn lattice() -> Lattice {
     Lattice::plane([256, 128], 10.0, Connectivity::FourEight, boundary).unwrap()
 }
 
-fn noise(initial: &InitialCondition, seed: u64) -> Vec<f64> {
+/// White noise, diffused to the length of the hills, at the wanted mean and deviation.
+fn initial_sand(initial: &InitialCondition, seed: u64) -> Vec<f64> {
+    let lattice = lattice();
     let stream = RandomStream::new(seed, "initial sand");
-    let thickness = |node| {
-        initial.mean_m + initial.amplitude_m * (2.0 * unit(stream.block(0, node, 0)[0]) - 1.0)
-    };
-    (0..256 * 128).map(thickness).collect()
+    let mut sand: Vec<f64> =
+        (0..lattice.node_count()).map(|node| unit(stream.block(0, node, 0)[0])).collect();
+    // Diffusion for the time t spreads a point over a length of sqrt(2 K t).
+    let diffusivity_m2 = 25.0;
+    let steps = (initial.length_m.powi(2) / (2.0 * diffusivity_m2)).round() as u32;
+    let hills = SmoothingSettings { diffusivity_m2, steps };
+    smooth(&lattice, &hills, &vec![0.0; sand.len()], &mut sand).unwrap();
+    let count = sand.len() as f64;
+    let mean = sand.iter().sum::<f64>() / count;
+    let deviation = (sand.iter().map(|sand| (sand - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let scaled = |sand: &f64| initial.mean_m + initial.deviation_m * (sand - mean) / deviation;
+    sand.iter().map(|sand| scaled(sand).max(0.0)).collect()
 }
 
 /// Twenty coarse ticks and three phases of refinement (table 4.2).
@@ -55,7 +72,7 @@ fn build_dunes(
     shelter: &mut dyn Shelter,
 ) -> Vec<f64> {
     let lattice = lattice();
-    let mut sand = noise(initial, seed);
+    let mut sand = initial_sand(initial, seed);
     let bed = vec![0.0; sand.len()];
     let volume = sand_volume_m3(&lattice, &sand);
     let mut settings = DuneSettings::default();
@@ -78,7 +95,9 @@ fn row(initial: &InitialCondition, seed: u64) -> Row {
     let rose = Rose::default();
     let near_repose = |surface: &[f64]| near_repose_percent(&lattice, surface, 33.0, 0.1).unwrap();
 
-    let mut shadow = Shadow::new(ShadowSettings::default()).unwrap();
+    // The horizontal ray of the visibility test, as nearly as a shadow that must end can be.
+    let horizontal = ShadowSettings { angle_deg: 0.01, ..ShadowSettings::default() };
+    let mut shadow = Shadow::new(horizontal).unwrap();
     let by_shadow = build_dunes(initial, 140.0, seed, &mut shadow);
 
     let settings = ProtectionSettings::default();
