@@ -11,6 +11,19 @@ const INK: [u8; 3] = [40, 40, 40];
 /// Draws a field of `width * height` values (row 0 at the top) in flat colours, each node a
 /// square of `pixels_per_node` pixels.
 ///
+/// ```
+/// use landform_view::{ColourMap, flat};
+///
+/// let change: Vec<f64> = (0..60 * 40).map(|node| f64::from(node % 60 - 30) / 10.0).collect();
+/// let (colours, range) = (ColourMap::named("vik")?, [-3.0, 3.0]);
+/// let picture = flat::colour_field(&change, 60, 40, colours, Some(range), 4)?;
+/// let label = "change of height (m)".into();
+/// let bar = flat::ColourBar { colours, range, label, text_size: 13.0 };
+/// let picture = bar.beside(&picture)?;
+/// assert!(picture.width > 240 && picture.height == 160);
+/// # Ok::<(), landform_view::ViewError>(())
+/// ```
+///
 /// `range` holds the values of the first and the last colour of the map; the field's own range
 /// when missing. Values outside take the colours of the ends, NaN is grey.
 ///

@@ -3,6 +3,9 @@
 use crate::ViewError;
 
 /// Heights of the nodes of a grid: row by row, row 0 the northernmost, columns from the west.
+///
+/// It borrows the heights, so a field of a simulation is drawn without a copy. Gaps (no-data,
+/// NaN) have to be filled by the caller, who knows with what.
 #[derive(Clone, Copy, Debug)]
 pub struct HeightField<'a> {
     width: usize,

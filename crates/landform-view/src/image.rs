@@ -8,6 +8,9 @@ use crate::ViewError;
 use crate::atomic_file::AtomicFile;
 
 /// A picture of 8-bit sRGB colours, row by row from the top left pixel.
+///
+/// The fields are open for callers who draw on a picture; functions that take one check that the
+/// number of colours fits the size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Number of columns.

@@ -45,6 +45,20 @@ impl Default for MontageOptions {
 /// Lays panels out as a figure: columns as wide as their widest panel, captions centred below
 /// the panels and broken to their width.
 ///
+/// ```
+/// use landform_view::Image;
+/// use landform_view::montage::{MontageOptions, Panel, Row, panels};
+///
+/// let panel = |shade: u8, caption: &str| -> Result<Panel, landform_view::ViewError> {
+///     Ok(Panel { image: Image::filled(120, 80, [shade; 3])?, caption: caption.into() })
+/// };
+/// let panels_of_row = vec![panel(90, "before")?, panel(180, "after 100 iterations")?];
+/// let row = Row { heading: "Transverse dunes".into(), panels: panels_of_row };
+/// let figure = panels(&[row], &MontageOptions::default())?;
+/// assert_eq!(figure.width, 120 + 120 + 3 * 16);
+/// # Ok::<(), landform_view::ViewError>(())
+/// ```
+///
 /// # Errors
 /// [`ViewError::TooSmall`] without a panel, [`ViewError::TooLarge`] beyond memory,
 /// [`ViewError::Option`] for letters below 4 or above 200 pixels.

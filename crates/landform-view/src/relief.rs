@@ -56,6 +56,22 @@ impl ReliefOptions {
 
 /// Draws the map of a field: colours by height under sun and sky with cast shadows.
 ///
+/// ```
+/// use landform_view::relief::{ReliefOptions, shaded_relief};
+/// use landform_view::{ColourMap, Ground, HeightField};
+///
+/// let cone: Vec<f64> = (0..50 * 40)
+///     .map(|i| (20.0 - f64::from(i % 50 - 25).hypot(f64::from(i / 50 - 20))).max(0.0))
+///     .collect();
+/// let field = HeightField::new(50, 40, 1.0, &cone)?;
+/// let mut options = ReliefOptions::new(Ground::new(ColourMap::named("lajolla")?));
+/// options.pixels_per_node = 2.0;
+/// options.ground.contour_m = Some(5.0);
+/// let map = shaded_relief(&field, &options)?;
+/// assert_eq!((map.width, map.height), (100, 80));
+/// # Ok::<(), landform_view::ViewError>(())
+/// ```
+///
 /// The picture has `pixels_per_node` times the columns and rows of the field, rounded.
 ///
 /// # Errors

@@ -1,4 +1,22 @@
 //! Colours of a surface in its light, before any camera looks at it.
+//!
+//! In linear light a node has the colour
+//!
+//! ```text
+//! C = K (S s max(0, n.l) + H v + B K S (1 - v))
+//! ```
+//!
+//! - `K`: the ground's own colour, from the colour map (contour lines darken it);
+//! - `S`, `H`: colours and strengths of the sun and of the sky;
+//! - `n.l`: cosine between the normal of the slope and the direction of the sun (Lambert's law);
+//!   with `Light::spread` a share of it is the mean over all bearings of the sun;
+//! - `s`: share of the sun's disc above the horizon of the terrain, 0 in shadow;
+//! - `v`: view factor of the sky, 1 on a plain and less in hollows;
+//! - `B`: how much of the light that falls on the ground beside comes back.
+//!
+//! The last term treats everything that hides the sky as ground of the same colour in full sun.
+//! It keeps hollows and slip faces warm where the sky alone would leave them blue and dark; it
+//! is not a solution for light that is reflected more than once.
 
 use rayon::prelude::*;
 

@@ -18,6 +18,7 @@ pub(super) struct Apng {
 }
 
 impl Apng {
+    /// Opens the file; `text` as of [`Image::write_png`].
     pub(super) fn create(
         path: &Path,
         [width, height]: [usize; 2],
@@ -34,6 +35,7 @@ impl Apng {
         Ok(Self { guard, writer })
     }
 
+    /// Writes a frame of the size of the file.
     pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
         self.writer
             .write_image_data(image.rgb.as_flattened())

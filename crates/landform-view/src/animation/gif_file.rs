@@ -24,6 +24,7 @@ pub(super) struct GifFile {
 }
 
 impl GifFile {
+    /// Opens the file; `text` becomes comments.
     pub(super) fn create(
         path: &Path,
         size: [usize; 2],
@@ -47,6 +48,7 @@ impl GifFile {
         Ok(Self { guard, encoder, size: [width, height], delay })
     }
 
+    /// Writes a frame of the size of the file with a palette of its own.
     pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
         let [width, height] = self.size;
         let pixels = image.rgb.as_flattened();
@@ -58,6 +60,7 @@ impl GifFile {
         self.encoder.write_frame(&frame).map_err(problem)
     }
 
+    /// Ends the file and puts it in its place.
     pub(super) fn finish(self) -> Result<(), ViewError> {
         let problem = |error| ViewError::format(self.guard.target(), error);
         let mut file = self.encoder.into_inner().map_err(problem)?;

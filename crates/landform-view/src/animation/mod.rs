@@ -14,6 +14,21 @@ use gif_file::GifFile;
 ///
 /// Frames go to a temporary file one by one, so memory holds one frame at most; the file appears
 /// in its place with [`Animation::finish`]. Dropped before that, it leaves nothing behind.
+///
+/// ```
+/// use landform_view::Image;
+/// use landform_view::animation::Animation;
+///
+/// let path = std::env::temp_dir().join(format!("landform-doc-{}.gif", std::process::id()));
+/// let mut animation = Animation::create(&path, 100, &[("seed", "7")])?;
+/// for grey in [40, 120, 200] {
+///     animation.add(&Image::filled(64, 48, [grey; 3])?)?;
+/// }
+/// assert_eq!(animation.frames(), 3);
+/// animation.finish()?;
+/// # let _ = std::fs::remove_file(&path);
+/// # Ok::<(), landform_view::ViewError>(())
+/// ```
 #[derive(Debug)]
 pub struct Animation {
     path: PathBuf,

@@ -1,4 +1,16 @@
 //! Perspective views: a block of terrain, or terrain to the horizon, under a low sun.
+//!
+//! 1. The heights are resampled to a surface of about a node a pixel, and every node gets its
+//!    colour in sun and sky (the same as in a shaded relief).
+//! 2. The camera stands where the whole block fits into the picture, divided by the zoom.
+//! 3. Each ray passes over groups of cells by their greatest height until it comes to a cell
+//!    that it may hit, and meets that cell's bilinear patch exactly.
+//! 4. The colour at the hit is averaged over the ray's footprint, seen through water and haze,
+//!    and the rays of a pixel are averaged.
+//!
+//! Limits: the sun's shadows are those of the resampled nodes, so a camera very near the ground
+//! sees them soft; water mirrors the backdrop but not the terrain; endless ground is drawn to
+//! sixty times the field's diagonal.
 
 mod block;
 mod camera;
