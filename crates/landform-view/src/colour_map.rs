@@ -78,6 +78,7 @@ impl ColourMap {
         std::array::from_fn(|channel| low[channel] + (high[channel] - low[channel]) * share)
     }
 
+    /// Colour of the table at an index from 0 to 255.
     fn entry(&self, index: usize) -> [u8; 3] {
         std::array::from_fn(|channel| self.table[3 * index + channel])
     }

@@ -114,6 +114,7 @@ impl ColourBar {
         Ok(page)
     }
 
+    /// Fills a rectangle with the colours, the last one at the top.
     fn draw_bar(&self, page: &mut Image, [left, top]: [usize; 2], [width, height]: [usize; 2]) {
         for row in 0..height {
             let place = 1.0 - (row as f64 + 0.5) / height as f64;
@@ -122,6 +123,7 @@ impl ColourBar {
         }
     }
 
+    /// Draws a tick to the right of the bar and its label beside it.
     fn draw_tick(&self, page: &mut Image, left: usize, row: usize, label: &str) {
         let length = (self.text_size / 3.0).ceil() as usize;
         let start = left + page.width * row;

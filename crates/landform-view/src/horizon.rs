@@ -1,4 +1,9 @@
 //! How much of the sun and of the sky each node of a surface sees.
+//!
+//! Both are horizons: the steepest rise of the terrain in a direction. Towards the sun every node
+//! on the way counts and the result decides sharp shadows; of the sky sixteen directions and a
+//! few distances are enough, because its light changes slowly from node to node. The sky is
+//! probed to ninety nodes of the surface, so only what is near takes light away.
 
 use rayon::prelude::*;
 
@@ -100,6 +105,8 @@ struct Probe {
     north: f32,
 }
 
+/// The nodes to look at in one of the sky's directions, from near to far. They lie at whole
+/// columns and rows, with their true distances, so that no height is interpolated.
 fn probes(direction: usize) -> Vec<Probe> {
     let angle = (direction as f64 + 0.5) / SKY_DIRECTIONS as f64 * std::f64::consts::TAU;
     let (sin, cos) = angle.sin_cos();

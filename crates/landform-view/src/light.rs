@@ -86,7 +86,8 @@ pub struct Light {
 }
 
 impl Light {
-    /// Nearly white light from the north-west, as maps are shaded.
+    /// Nearly white light from the north-west, as maps are shaded: a low sun from above left is
+    /// what makes valleys look like valleys, and soft shadows leave the colours of the map legible.
     pub fn map() -> Self {
         Self {
             bearing_deg: 315.0,
@@ -101,7 +102,8 @@ impl Light {
         }
     }
 
-    /// A warm low sun under a blue sky, for perspective views.
+    /// A warm low sun under a blue sky, for perspective views. Slip faces at the angle of repose
+    /// (about 33 degrees) that face away from this sun lie in their own shadow.
     pub fn low_sun() -> Self {
         Self {
             bearing_deg: 290.0,

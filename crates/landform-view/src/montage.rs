@@ -130,6 +130,7 @@ impl Layout {
     }
 }
 
+/// Lines of a panel's caption, with its letter, broken to the width of its column.
 fn caption_lines(
     panel: &Panel,
     letter: usize,
@@ -157,6 +158,7 @@ fn letter_name(mut number: usize) -> String {
     name
 }
 
+/// Draws a row: its heading, then panels centred in their columns with their captions below.
 fn draw_row(
     page: &mut Image,
     row: &Row,

@@ -164,6 +164,8 @@ struct Nodes {
 }
 
 impl Nodes {
+    /// Means over blocks of `block` by `block` nodes, exaggerated and smoothed; a block of 1
+    /// takes every height as it is.
     fn average(field: &HeightField<'_>, datum: f64, sampling: &Sampling, block: usize) -> Self {
         let (width, height) = (field.width(), field.height());
         let [columns, rows] = [width, height].map(|size| size.div_ceil(block));
@@ -183,6 +185,7 @@ impl Nodes {
         Self { columns, heights }
     }
 
+    /// Height between the nodes around a column and a row.
     fn spline(&self, column: &Stop, row: &Stop) -> f32 {
         let mut sum = 0.0;
         for (&line, &share) in row.nodes.iter().zip(&row.weights) {
@@ -201,6 +204,7 @@ struct Stop {
 }
 
 impl Stop {
+    /// The place of a surface node on an axis of `nodes` blocks of `block` nodes.
     fn new(sampling: &Sampling, index: usize, block: usize, nodes: usize) -> Self {
         let place = sampling.origin + sampling.step * index as f64;
         let centre = (block as f64 - 1.0) / 2.0;

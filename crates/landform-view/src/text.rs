@@ -68,6 +68,7 @@ fn layout(text: &str, size: f32) -> (Vec<Glyph>, f32) {
     (glyphs, x)
 }
 
+/// Lays ink over a pixel, if the picture has it; `share` is how much of the pixel is covered.
 fn blend(image: &mut Image, column: i64, row: i64, colour: [u8; 3], share: f32) {
     let (Ok(column), Ok(row)) = (usize::try_from(column), usize::try_from(row)) else { return };
     if column < image.width && row < image.height {

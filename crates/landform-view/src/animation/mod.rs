@@ -105,6 +105,7 @@ impl Animation {
         Ok(())
     }
 
+    /// Opens the file for frames of the size of the first one.
     fn open(&self) -> Result<Encoder, ViewError> {
         let text: Vec<(&str, &str)> =
             self.text.iter().map(|(keyword, entry)| (keyword.as_str(), entry.as_str())).collect();

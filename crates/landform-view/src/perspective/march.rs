@@ -130,6 +130,7 @@ impl<'a> Marcher<'a> {
         exit
     }
 
+    /// Greatest height of the group of cells of a level around a cell.
     fn maximum(&self, cell: [isize; 2], level: usize) -> f32 {
         let maxima = &self.levels[level];
         let [column, row] = self.local(cell);
@@ -161,6 +162,7 @@ impl<'a> Marcher<'a> {
 }
 
 impl Maxima {
+    /// Maxima of a grid of cells, computed row by row.
     fn of(columns: usize, rows: usize, value: impl Fn(usize, usize) -> f32 + Sync) -> Self {
         let mut heights = vec![0.0; columns * rows];
         heights.par_chunks_mut(columns).enumerate().for_each(|(row, line)| {
@@ -169,6 +171,7 @@ impl Maxima {
         Self { columns, rows, heights }
     }
 
+    /// Maxima of 2 x 2 of these cells; the last ones may be fewer.
     fn coarser(&self) -> Self {
         Self::of(self.columns.div_ceil(2), self.rows.div_ceil(2), |column, row| {
             let across = 2 * column..(2 * column + 2).min(self.columns);

@@ -178,6 +178,7 @@ impl<'a> Scene<'a> {
         Some((under[0], mix(body, reflected, mirrored as f32)))
     }
 
+    /// Colour of the backdrop: between its two colours by the vertical part of the direction.
     fn backdrop(&self, direction: DVec3) -> Rgb {
         let [low, high] = self.sky_range;
         let share = ((direction.z - low) / (high - low)).clamp(0.0, 1.0) as f32;

@@ -40,6 +40,7 @@ impl Texture {
         }
     }
 
+    /// Colour at a place in nodes of the surface, interpolated between the means of one level.
     fn bilinear(&self, level: usize, column: f64, row: f64) -> Rgb {
         let scale = (1_u64 << level) as f64;
         let level = &self.levels[level];
