@@ -197,7 +197,7 @@ impl AbelianSandpile {
     pub fn add_at_random(&mut self, stream: &RandomStream, number: u64) -> Avalanche {
         let [columns, rows] = self.size;
         let words = stream.block(number, 0, 0);
-        let pick = |word: u32, count: usize| (u64::from(word) * count as u64 >> 32) as usize;
+        let pick = |word: u32, count: usize| ((u64::from(word) * count as u64) >> 32) as usize;
         self.add(pick(words[0], columns), pick(words[1], rows))
     }
 

@@ -213,10 +213,10 @@ mod tests {
         }
         let mut heights = vec![0.0; lattice.node_count()];
         assert_eq!(model.step(&lattice, &mut state, &mut heights), Ok(state.disc.area()));
-        for node in 0..heights.len() {
+        for (node, height) in heights.iter().enumerate() {
             let [x, y, _] = lattice.coordinates(node);
             let near = x.abs_diff(32).pow(2) + y.abs_diff(32).pow(2) <= 100;
-            assert_eq!(heights[node] < 0.0, near, "node {node}");
+            assert_eq!(*height < 0.0, near, "node {node}");
         }
     }
 

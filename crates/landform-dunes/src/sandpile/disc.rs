@@ -24,7 +24,7 @@ impl Disc {
         }
         let radius = radius_m / lattice.spacing();
         let around = |axis: usize| 2.0 * radius.floor() + 1.0 > lattice.size()[axis] as f64;
-        if !(radius >= 0.0 && radius <= 1e4) || around(0) || around(1) {
+        if !(0.0..=1e4).contains(&radius) || around(0) || around(1) {
             return Err(SandpileError::Parameter {
                 parameter: "radius_m",
                 value: radius_m,

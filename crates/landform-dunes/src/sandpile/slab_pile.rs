@@ -84,7 +84,7 @@ impl SlabPile {
     /// Adds a slab on a random column; `number` counts the slabs of the run.
     pub fn add_at_random(&mut self, stream: &RandomStream, number: u64) -> u64 {
         let word = stream.block(number, 0, 0)[0];
-        self.add((u64::from(word) * self.slopes.len() as u64 >> 32) as usize)
+        self.add(((u64::from(word) * self.slopes.len() as u64) >> 32) as usize)
     }
 
     fn slide(&mut self, column: usize) {
