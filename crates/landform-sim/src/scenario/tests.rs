@@ -183,12 +183,12 @@ fn names_that_are_unknown_are_refused_with_the_nearest() {
     let message = refused("Scale()", "Scake()");
     assert!(message.contains("unknown process `Scake`"), "{message}");
     assert!(
-        message.contains("did you mean `Scale`?") && message.contains("toy.ron:6"),
+        message.contains("did you mean \"Scale\"?") && message.contains("toy.ron:6"),
         "{message}"
     );
     let message = refused("Uniform(", "Unifrom(");
     assert!(
-        message.contains("did you mean `Uniform`?") && message.contains("toy.ron:4"),
+        message.contains("did you mean \"Uniform\"?") && message.contains("toy.ron:4"),
         "{message}"
     );
     let message = refused("field: \"sand\"", "field: \"sant\"");
