@@ -184,7 +184,8 @@ fn supply_and_winds_make_the_kind_of_dune() {
     assert!(arms.coherence < 0.25, "{arms:?}");
 }
 
-/// Lee sides are slip faces at repose, windward sides are gentle: slopes over six nodes.
+/// Slopes at repose over six nodes lie in the lee, not all of them: without a wind that is
+/// faster over crests, windward sides may be steep too (Momiji and Warren 2000).
 #[test]
 fn slip_faces_lie_in_the_lee() {
     let (lattice, sand) = grow(vec![Wind::steady(0.0)], 10, 300);
@@ -196,7 +197,7 @@ fn slip_faces_lie_in_the_lee() {
         (0..sand.len()).filter(|&node| fall(node) >= 11.0).count()
     };
     let [lee, windward] = [steep(1.0), steep(-1.0)];
-    assert!(lee > 10 * windward, "{lee} steep slopes in the lee, {windward} in the wind");
+    assert!(lee > 3 * windward, "{lee} steep slopes in the lee, {windward} in the wind");
 }
 
 /// A pile on bare ground becomes a barchan: its flanks overtake its middle.
