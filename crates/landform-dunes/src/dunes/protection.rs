@@ -15,10 +15,10 @@
 //! ```
 //!
 //! `h` height of the surface, `m` its mean over the lattice, `w` the weight of the own height.
-//! `w = 0` is the thesis' reading (heights above the mean protect, the own height is of no
-//! account): steep dunes, whose crests and hollows count as protected as well. `w = 1` compares a
-//! node with what lies upwind alone: it follows geometric shadow closely, does not care for
-//! the mean level (so it suits a bed that slopes), and makes gentler dunes. The measurements
+//! `w = 0` is the thesis' reading (what is above the mean protects, the own height is of no
+//! account): steep dunes, whose crests count as protected as well. `w = 1` compares a node with
+//! what lies upwind alone, so it does not care for the mean level and suits a bed that slopes;
+//! it makes dunes no steeper than those by shadow. The measurements
 //! behind this are in the book, page "Calibration of the dunes".
 //!
 //! The state is kept up to date from event to event in whole quanta of height and equals the
