@@ -3,7 +3,7 @@
 use landform_analysis::{SpectralFit, Spectrum};
 use landform_dunes::sandpile::{CorrosionLike, SandLike};
 use landform_graph::{Boundary, Connectivity, Lattice};
-use landform_synth::{InitialCondition, WhiteNoise};
+use landform_synth::{Generator, WhiteNoise};
 
 fn lattice(side: usize) -> Lattice {
     Lattice::plane([side, side], 10.0, Connectivity::Eight, [Boundary::Periodic; 2]).unwrap()

@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// How the amplitude of a wave scatters about its mean. Both laws give the same mean power.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -67,7 +67,7 @@ impl Default for SpectralFbm {
     }
 }
 
-impl InitialCondition for SpectralFbm {
+impl Generator for SpectralFbm {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("SpectralFbm");
         checks.plane(lattice)?;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
 use crate::place::offset_from;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// A cone on level ground, as sand poured on one spot makes. In volumes all layers are alike.
 /// On periodic axes it reaches across the border.
@@ -34,7 +34,7 @@ impl Default for Cone {
     }
 }
 
-impl InitialCondition for Cone {
+impl Generator for Cone {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("Cone");
         checks.elevation("base_m", self.base_m)?;
@@ -71,7 +71,7 @@ impl Default for GaussianHill {
     }
 }
 
-impl InitialCondition for GaussianHill {
+impl Generator for GaussianHill {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("GaussianHill");
         checks.elevation("base_m", self.base_m)?;

@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use landform_graph::{Boundary, Connectivity, Lattice};
-//! use landform_synth::{InitialCondition, WhiteNoise};
+//! use landform_synth::{Generator, WhiteNoise};
 //!
 //! let lattice = Lattice::plane([64, 32], 10.0, Connectivity::Eight, [Boundary::Periodic; 2])?;
 //! let heights = WhiteNoise { amplitude_m: 2.0, ..Default::default() }.generate(&lattice, 7)?;
@@ -43,7 +43,7 @@ pub use uniform::Uniform;
 use landform_graph::Lattice;
 
 /// A way to fill a field before the first iteration.
-pub trait InitialCondition: Send + Sync {
+pub trait Generator: Send + Sync {
     /// One value for each node of `lattice`, in node order; `seed` is used by random fields
     /// only.
     ///

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// How random values are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -61,7 +61,7 @@ impl Default for WhiteNoise {
     }
 }
 
-impl InitialCondition for WhiteNoise {
+impl Generator for WhiteNoise {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("WhiteNoise");
         checks.elevation("mean_m", self.mean_m)?;

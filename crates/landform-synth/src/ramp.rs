@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// A plane of constant slope whose lowest corner is at `lowest_m`. In volumes all layers are
 /// alike.
@@ -32,7 +32,7 @@ impl Default for Ramp {
     }
 }
 
-impl InitialCondition for Ramp {
+impl Generator for Ramp {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("Ramp");
         checks.elevation("lowest_m", self.lowest_m)?;

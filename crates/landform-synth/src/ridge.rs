@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
 use crate::place::offset_from;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// Which way a ridge runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +51,7 @@ impl Default for Ridge {
     }
 }
 
-impl InitialCondition for Ridge {
+impl Generator for Ridge {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("Ridge");
         checks.elevation("base_m", self.base_m)?;

@@ -5,7 +5,7 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, GaussianHill, InitialCondition, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
+    Cone, GaussianHill, Generator, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
     SynthError, Uniform, WhiteNoise,
 };
 

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// A sine wave. In volumes all layers are alike.
 ///
@@ -46,7 +46,7 @@ impl Default for Sinusoid {
     }
 }
 
-impl InitialCondition for Sinusoid {
+impl Generator for Sinusoid {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("Sinusoid");
         checks.elevation("mean_m", self.mean_m)?;

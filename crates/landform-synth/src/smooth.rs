@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{Distribution, InitialCondition, SynthError};
+use crate::{Distribution, Generator, SynthError};
 
 /// Random hills and hollows of one size, without detail below it.
 ///
@@ -48,7 +48,7 @@ impl Default for SmoothNoise {
     }
 }
 
-impl InitialCondition for SmoothNoise {
+impl Generator for SmoothNoise {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
         let checks = Checks("SmoothNoise");
         checks.elevation("mean_m", self.mean_m)?;

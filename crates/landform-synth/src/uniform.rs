@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Checks;
-use crate::{InitialCondition, SynthError};
+use crate::{Generator, SynthError};
 
 /// The same value at every node.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -16,7 +16,7 @@ pub struct Uniform {
     pub value: f64,
 }
 
-impl InitialCondition for Uniform {
+impl Generator for Uniform {
     fn generate(&self, lattice: &Lattice, _seed: u64) -> Result<Vec<f64>, SynthError> {
         Checks("Uniform").elevation("value", self.value)?;
         Ok(vec![self.value; lattice.node_count()])

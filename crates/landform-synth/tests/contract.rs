@@ -5,7 +5,7 @@ use landform_synth::*;
 use serde_json::{Value, json};
 
 /// Makes a generator from its parameters as a scenario file would.
-fn parse(name: &str, parameters: Value) -> Result<Box<dyn InitialCondition>, serde_json::Error> {
+fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json::Error> {
     Ok(match name {
         "Uniform" => Box::new(serde_json::from_value::<Uniform>(parameters)?),
         "WhiteNoise" => Box::new(serde_json::from_value::<WhiteNoise>(parameters)?),

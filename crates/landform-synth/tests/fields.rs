@@ -82,7 +82,7 @@ fn smooth_noise_has_its_standard_deviation_and_length() {
 #[test]
 fn smooth_fields_close_on_periodic_axes() {
     let lattice = periodic([50, 34]);
-    let generators: [(&str, Box<dyn InitialCondition>); 5] = [
+    let generators: [(&str, Box<dyn Generator>); 5] = [
         ("SmoothNoise", Box::new(SmoothNoise::default())),
         ("Sinusoid", Box::new(Sinusoid { direction_deg: 30.0, ..Default::default() })),
         ("Cone", Box::new(Cone { center: [0.03, 0.98], ..Default::default() })),

@@ -1,17 +1,34 @@
-//! Dunes and sandpiles as processes, metrics and initial states that scenarios may name.
+//! Dunes and sandpiles as processes and metrics that scenarios may name.
 
 mod counts;
 mod dunes;
+pub mod metrics;
+mod sandpiles;
 mod smoothing;
 
 pub use counts::{DuneActivity, DuneCounts};
 pub use dunes::{Dunes, ShelterKind};
+pub use sandpiles::{AvalancheRecord, Grains, Sandpile};
 pub use smoothing::Smoothing;
 
 use landform_sim::registry::Registry;
 
+use crate::sandpile::{CorrosionLike, SandLike};
+
 /// Registers the processes and metrics of this crate.
 pub fn register(registry: &mut Registry) {
-    registry.process::<Dunes>().process::<Smoothing>();
-    registry.metric::<DuneActivity>();
+    registry
+        .process::<Dunes>()
+        .process::<Smoothing>()
+        .process::<SandLike>()
+        .process::<CorrosionLike>()
+        .process::<Sandpile>();
+    registry
+        .metric::<metrics::NearRepose>()
+        .metric::<metrics::BareGround>()
+        .metric::<metrics::Crests>()
+        .metric::<metrics::Migration>()
+        .metric::<metrics::ProtectionError>()
+        .metric::<metrics::Avalanches>()
+        .metric::<DuneActivity>();
 }

@@ -179,7 +179,7 @@ impl SandState {
 mod tests {
     use super::*;
     use landform_graph::{Boundary, Connectivity};
-    use landform_synth::{InitialCondition, WhiteNoise};
+    use landform_synth::{Generator, WhiteNoise};
 
     fn lattice(side: usize) -> Lattice {
         let periodic = [Boundary::Periodic; 2];

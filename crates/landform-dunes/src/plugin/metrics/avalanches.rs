@@ -1,0 +1,36 @@
+//! Avalanches of sandpiles and of the relaxed models.
+
+use landform_sim::metric::Metric;
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::measured;
+use crate::plugin::AvalancheRecord;
+use crate::sandpile::exact::mean_avalanche_size;
+
+/// Events of the latest iteration (slips, blocks, topplings) and, for `Sandpile`, the mean size of
+/// the avalanches so far beside its exact value for a square pile (Dhar 1990).
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Avalanches {}
+
+impl Metric for Avalanches {
+    const NAME: &'static str = "Avalanches";
+
+    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+        let Some(record) = snapshot.world().get_resource::<AvalancheRecord>() else {
+            return Ok(Vec::new());
+        };
+        let count = record.sizes.len() as f64;
+        let total = record.sizes.iter().sum::<u64>() as f64;
+        let lattice = snapshot.lattice();
+        let square = lattice.width() == lattice.height() && count > 0.0;
+        Ok(measured([
+            ("avalanche_events", Some(record.events as f64)),
+            ("mean_avalanche", (count > 0.0).then(|| total / count)),
+            ("mean_avalanche_exact", square.then(|| mean_avalanche_size(lattice.width()))),
+        ]))
+    }
+}

@@ -1,0 +1,65 @@
+//! How well protection stands in for a test of visibility.
+
+use landform_sim::metric::Metric;
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{measured, refusal, surface};
+use crate::dunes::{
+    FlankSettings, Protection, ProtectionSettings, Rose, VisibilitySettings, Wind, flanks,
+    geometric_shadow, shadow_error,
+};
+
+/// Share of nodes where shelter by protection disagrees with geometric visibility, with and
+/// without the peaks and troughs of the dunes (thesis, table 4.1b).
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProtectionError {
+    /// The wind; the test of visibility looks along each of its directions.
+    pub wind: Wind,
+    /// The cone of protection.
+    pub protection: ProtectionSettings,
+    /// The test of visibility.
+    pub visibility: VisibilitySettings,
+    /// What is left when peaks and troughs are left out.
+    pub flanks: FlankSettings,
+}
+
+impl Default for ProtectionError {
+    fn default() -> Self {
+        Self {
+            wind: Wind::default(),
+            protection: ProtectionSettings::default(),
+            visibility: VisibilitySettings::default(),
+            flanks: FlankSettings::default(),
+        }
+    }
+}
+
+impl Metric for ProtectionError {
+    const NAME: &'static str = "ProtectionError";
+
+    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+        let surface = surface(snapshot)?;
+        let lattice = snapshot.lattice();
+        let rose = Rose { winds: vec![self.wind.clone()] };
+        let mut emergent = vec![false; surface.len()];
+        let mut protection =
+            Protection::new(self.protection.clone(), &rose, lattice).map_err(refusal)?;
+        protection.update(0, &surface).map_err(refusal)?;
+        protection.mark(0, &mut emergent);
+        let geometric =
+            geometric_shadow(lattice, &surface, &rose, &self.visibility).map_err(refusal)?;
+        let flanks =
+            flanks(lattice, &surface, self.wind.towards_deg, &self.flanks).map_err(refusal)?;
+        let error = shadow_error(&emergent, &geometric, &flanks).map_err(refusal)?;
+        Ok(measured([
+            ("protection_error_percent", Some(error.all_percent)),
+            ("protection_error_on_flanks_percent", error.flanks_percent),
+            ("protection_error_reduction_percent", error.reduction_percent),
+            ("peaks_and_troughs_percent", Some(error.left_out_percent)),
+        ]))
+    }
+}
