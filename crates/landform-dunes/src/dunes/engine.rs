@@ -8,6 +8,7 @@ use super::avalanche::{AvalancheCounts, Layers, settle};
 use super::error::{DuneError, check_length};
 use super::feed::Feed;
 use super::plane::Plane;
+use super::shadow::range;
 use super::sweep::Changes;
 use super::transport::{Band, Chances, Flight, SUB_STEPS, SubStep, survey, transport};
 use super::wind::Directions;
@@ -121,9 +122,11 @@ impl Engine {
         let mut counts = TickCounts::default();
         // Inside the pool, starting a parallel loop costs far less than from outside.
         rayon::scope(|_| {
-            self.raise_surface(bed, sand);
+            let mut relief = self.raise_surface(bed, sand);
             for number in 0..SUB_STEPS {
-                let (moved, slid) = self.sub_step(bed, sand, (iteration, number), shelter);
+                let moved = self.sub_step(bed, sand, relief, (iteration, number), shelter);
+                relief = self.raise_surface(bed, sand);
+                let slid = self.avalanche(bed, sand);
                 counts.transport.add(&moved);
                 counts.avalanches[number as usize] = slid;
             }
@@ -161,14 +164,22 @@ impl Engine {
         &mut self,
         bed: &[f64],
         sand: &mut [f64],
+        relief_m: f64,
         (iteration, number): (u64, u32),
         shelter: &mut dyn Shelter,
-    ) -> (TransportCounts, AvalancheCounts) {
+    ) -> TransportCounts {
         let wind = self.wind(iteration, number);
         let settings = &self.settings.transport;
         let Scratch { surface, sheltered, ground, bands, .. } = &mut self.scratch;
-        let exposure =
-            Exposure { lattice: &self.lattice, bed, sand, surface, wind: &wind, slab_m: self.slab };
+        let exposure = Exposure {
+            lattice: &self.lattice,
+            bed,
+            sand,
+            surface,
+            relief_m,
+            wind: &wind,
+            slab_m: self.slab,
+        };
         shelter.shelter(&exposure, sheltered);
         survey(sheltered, sand, self.slab, ground);
         let plane = Plane::new(&self.lattice);
@@ -182,10 +193,9 @@ impl Engine {
             slab: self.slab,
             lift_in_shelter: settings.lift_in_shelter,
         };
-        let mut layers = Layers { bed, sand, surface };
-        let mut moved = transport(&step, &flight, &self.chances, ground, &mut layers, bands);
-        moved.add(&self.feed.enter(&step, &wind, &flight, ground, &mut layers));
-        (moved, self.avalanche(bed, sand))
+        let mut moved = transport(&step, &flight, &self.chances, ground, sand, bands);
+        moved.add(&self.feed.enter(&step, &wind, &flight, ground, sand));
+        moved
     }
 
     fn avalanche(&mut self, bed: &[f64], sand: &mut [f64]) -> AvalancheCounts {
@@ -194,16 +204,21 @@ impl Engine {
         settle(&self.lattice, &self.settings.avalanche, self.slab, &mut layers, changes)
     }
 
-    fn raise_surface(&mut self, bed: &[f64], sand: &[f64]) {
+    /// Works out the surface and gives its relief in metres. Avalanches only lower the relief,
+    /// so it bounds that of the next sub-step too.
+    fn raise_surface(&mut self, bed: &[f64], sand: &[f64]) -> f64 {
         const CHUNK: usize = 1 << 14;
+        let none = || (f64::INFINITY, f64::NEG_INFINITY);
         let ground = bed.par_chunks(CHUNK).zip(sand.par_chunks(CHUNK));
-        self.scratch.surface.par_chunks_mut(CHUNK).zip(ground).for_each(
-            |(surface, (bed, sand))| {
-                for ((surface, &bed), &sand) in surface.iter_mut().zip(bed).zip(sand) {
-                    *surface = bed + sand;
-                }
-            },
-        );
+        let chunks = self.scratch.surface.par_chunks_mut(CHUNK).zip(ground);
+        let ranges = chunks.map(|(surface, (bed, sand))| {
+            for ((surface, &bed), &sand) in surface.iter_mut().zip(bed).zip(sand) {
+                *surface = bed + sand;
+            }
+            range(surface)
+        });
+        let (low, high) = ranges.reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        high - low
     }
 }
 

@@ -3,9 +3,8 @@
 use landform_graph::Lattice;
 use landform_sim::random::{RandomStream, unit};
 
-use super::avalanche::Layers;
 use super::plane::Plane;
-use super::transport::{Flight, Landing, SUB_STEPS, SubStep, put_down};
+use super::transport::{Flight, Landing, SUB_STEPS, SubStep};
 use super::{TransportCounts, TransportSettings, WindLine};
 
 /// A supply of slabs from upwind.
@@ -58,7 +57,7 @@ impl Feed {
         wind: &WindLine,
         flight: &Flight,
         ground: &[u8],
-        layers: &mut Layers<'_>,
+        sand: &mut [f64],
     ) -> TransportCounts {
         let mut counts = TransportCounts::default();
         let (slabs, Some(sides)) = (self.slabs(step), self.share_of_sides(wind)) else {
@@ -71,7 +70,7 @@ impl Feed {
             let start = self.start(sides, wind, flight.reach(), words.map(unit));
             let key = (self.land, step.iteration, number);
             match flight.enter(start, ground, key, &mut counts) {
-                Landing::Node(node) => put_down(layers, node, step.slab),
+                Landing::Node(node) => sand[node] += step.slab,
                 Landing::Left(border) => counts.left[border] += 1,
             }
         }

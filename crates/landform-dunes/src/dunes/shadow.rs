@@ -60,7 +60,8 @@ impl Shadow {
 
 impl Shelter for Shadow {
     fn shelter(&mut self, exposure: &Exposure<'_>, sheltered: &mut [bool]) {
-        cast_shadow(exposure.lattice, exposure.surface, exposure.wind, &self.settings, sheltered);
+        let Exposure { lattice, surface, wind, relief_m, .. } = *exposure;
+        Caster::new(lattice, surface, relief_m, wind, &self.settings).cast(sheltered);
     }
 }
 
@@ -74,11 +75,8 @@ pub fn cast_shadow(
     settings: &ShadowSettings,
     shaded: &mut [bool],
 ) {
-    let caster = Caster::new(lattice, surface, wind, settings);
-    match wind.axis() {
-        Axis::Columns => caster.along_rows(shaded),
-        Axis::Rows => caster.across_rows(shaded),
-    }
+    let (low, high) = range(surface);
+    Caster::new(lattice, surface, high - low, wind, settings).cast(shaded);
 }
 
 /// The shadow of one surface in one wind.
@@ -102,6 +100,7 @@ impl<'a> Caster<'a> {
     pub fn new(
         lattice: &Lattice,
         surface: &'a [f64],
+        relief: f64,
         wind: &'a WindLine,
         settings: &ShadowSettings,
     ) -> Self {
@@ -117,9 +116,17 @@ impl<'a> Caster<'a> {
             Some(reach) => longest.min((reach / step + 1e-9) as usize),
             None => longest,
         };
-        let needed = (relief(surface) / drop) as usize + 1;
+        let needed = (relief / drop) as usize + 1;
         let [reach, cut] = [needed.min(allowed), usize::from(needed > allowed)];
         Self { plane, surface, wind, drop, reach, cut: cut == 1 }
+    }
+
+    /// Marks every node.
+    pub fn cast(&self, shaded: &mut [bool]) {
+        match self.wind.axis() {
+            Axis::Columns => self.along_rows(shaded),
+            Axis::Rows => self.across_rows(shaded),
+        }
     }
 
     /// Height at step `step` of a line, tilted so that the edge of a shadow is level.
@@ -302,20 +309,29 @@ fn raise(peaks: &mut [f64], heights: &[f64], tilt: f64) {
     }
 }
 
-/// Difference between the highest and the lowest node in metres.
-fn relief(surface: &[f64]) -> f64 {
-    let (low, high) = surface
-        .par_chunks(1 << 14)
-        .map(|chunk| {
-            chunk.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &height| {
-                (if height < low { height } else { low }, higher(high, height))
-            })
-        })
-        .reduce(
-            || (f64::INFINITY, f64::NEG_INFINITY),
-            |a, b| (if a.0 < b.0 { a.0 } else { b.0 }, higher(a.1, b.1)),
-        );
-    high - low
+/// Lowest and highest value; infinities the wrong way round where there is none.
+pub(super) fn range(heights: &[f64]) -> (f64, f64) {
+    // Several extremes side by side: one alone would wait for itself at every value.
+    const LANES: usize = 8;
+    let mut lows = [f64::INFINITY; LANES];
+    let mut highs = [f64::NEG_INFINITY; LANES];
+    let (groups, rest) = heights.as_chunks::<LANES>();
+    for group in groups {
+        for (lane, &height) in group.iter().enumerate() {
+            lows[lane] = lower(lows[lane], height);
+            highs[lane] = higher(highs[lane], height);
+        }
+    }
+    let low = lows.iter().chain(rest).fold(f64::INFINITY, |low, &height| lower(low, height));
+    let high =
+        highs.iter().chain(rest).fold(f64::NEG_INFINITY, |high, &height| higher(high, height));
+    (low, high)
+}
+
+/// The lower of two heights.
+#[inline]
+fn lower(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ pub struct Exposure<'a> {
     pub sand: &'a [f64],
     /// Height of the surface, bed plus sand, at each node, metres.
     pub surface: &'a [f64],
+    /// At least the difference between the highest and the lowest surface, metres.
+    pub relief_m: f64,
     /// The wind that blows now.
     pub wind: &'a WindLine,
     /// Height of a slab, metres.

@@ -14,7 +14,6 @@ use landform_sim::random::RandomStream;
 use rayon::prelude::*;
 
 use super::TransportSettings;
-use super::avalanche::Layers;
 use super::plane::Plane;
 
 /// Sub-steps of a tick: each polls the nodes whose random number is its own.
@@ -211,37 +210,24 @@ pub(super) fn transport(
     flight: &Flight,
     chances: &Chances,
     ground: &[u8],
-    layers: &mut Layers<'_>,
+    sand: &mut [f64],
     bands: &mut Vec<Band>,
 ) -> TransportCounts {
     let Plane { width, height, .. } = flight.plane;
     bands.resize_with(height.div_ceil(BAND), Band::default);
-    let nodes = BAND * width;
-    layers
-        .sand
-        .par_chunks_mut(nodes)
-        .zip(layers.surface.par_chunks_mut(nodes))
-        .zip(layers.bed.par_chunks(nodes))
-        .zip(&mut *bands)
-        .enumerate()
-        .for_each(|(number, (((sand, surface), bed), band))| {
-            let mut layers = Layers { bed, sand, surface };
-            lift(step, flight, chances, ground, number * BAND, &mut layers, band);
-        });
+    sand.par_chunks_mut(BAND * width).zip(&mut *bands).enumerate().for_each(
+        |(number, (sand, band))| {
+            lift(step, flight, chances, ground, number * BAND, sand, band);
+        },
+    );
     let mut counts = TransportCounts::default();
     for band in bands {
         counts.add(&band.counts);
         for &node in &band.landings {
-            put_down(layers, node as usize, step.slab);
+            sand[node as usize] += step.slab;
         }
     }
     counts
-}
-
-/// Adds a slab to a node.
-pub(super) fn put_down(layers: &mut Layers<'_>, node: usize, slab: f64) {
-    layers.sand[node] += slab;
-    layers.surface[node] = layers.bed[node] + layers.sand[node];
 }
 
 /// Lifts and flies the slabs of the rows from `first` on.
@@ -251,7 +237,7 @@ fn lift(
     chances: &Chances,
     ground: &[u8],
     first: usize,
-    layers: &mut Layers<'_>,
+    sand: &mut [f64],
     band: &mut Band,
 ) {
     let width = flight.plane.width;
@@ -259,7 +245,7 @@ fn lift(
     band.landings.clear();
     band.counts = TransportCounts::default();
     let sheltered_sand = if step.lift_in_shelter { SAND | SHELTERED } else { SAND };
-    let rows = layers.sand.len() / width;
+    let rows = sand.len() / width;
     for row in first..first + rows {
         for block in 0..blocks {
             let words = chances.polls(step.iteration, row * blocks + block);
@@ -276,7 +262,7 @@ fn lift(
                         continue;
                     }
                     band.counts.lifts += 1;
-                    put_down(layers, node - first * width, -step.slab);
+                    sand[node - first * width] -= step.slab;
                     let key = (chances.land, step.iteration, node);
                     match flight.fly([column, row], ground, key, &mut band.counts) {
                         Landing::Node(node) => band.landings.push(node as u32),
@@ -336,15 +322,12 @@ mod tests {
             let ground: Vec<u8> = (0..4000).map(|node| (node * 7919 % 13 % 4) as u8).collect();
             let flight = Flight::new(plane, [-7, 3], &TransportSettings::default());
             let chances = Chances::new(9);
-            let bed = vec![0.0; 4000];
-            let [mut sand, mut surface] = [vec![5.0; 4000], vec![5.0; 4000]];
-            let mut layers = Layers { bed: &bed, sand: &mut sand, surface: &mut surface };
-            let counts = transport(&STEP, &flight, &chances, &ground, &mut layers, &mut Vec::new());
+            let mut sand = vec![5.0; 4000];
+            let counts = transport(&STEP, &flight, &chances, &ground, &mut sand, &mut Vec::new());
             let (lifts, change) = transport_by_polling(&flight, &chances, &ground);
             assert!(lifts > 100 && counts.lifts == lifts);
             let expected: Vec<f64> = change.iter().map(|&change| 5.0 + f64::from(change)).collect();
             assert_eq!(sand, expected);
-            assert_eq!(surface, sand);
             let lost: u64 = counts.left.iter().sum();
             assert_eq!(lost == 0, boundary == Boundary::Periodic);
             assert_eq!(sand.iter().sum::<f64>(), 20_000.0 - lost as f64);
