@@ -21,7 +21,7 @@ use super::cone::{Cone, Span};
 use super::plane::Plane;
 
 /// Quanta of height in one node spacing.
-const QUANTA: f64 = 4096.0;
+pub(super) const QUANTA: f64 = 4096.0;
 
 /// Nodes that are compared, counted or marked at a time.
 const CHUNK: usize = 1 << 13;
@@ -119,9 +119,9 @@ impl ConeSums {
             return self.sum_afresh(|node| scale.quanta(surface[node]));
         };
         for chunk in changed {
-            for node in chunk * CHUNK..((chunk + 1) * CHUNK).min(surface.len()) {
-                if self.scale.quanta(surface[node]) != self.heights[node] {
-                    self.set_height(node, surface[node]);
+            for (node, &height_m) in surface.iter().enumerate().skip(chunk * CHUNK).take(CHUNK) {
+                if self.scale.quanta(height_m) != self.heights[node] {
+                    self.set_height(node, height_m);
                 }
             }
         }

@@ -224,8 +224,9 @@ pub fn shadow_error(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dunes::Wind;
+    use crate::dunes::{ShadowSettings, Wind, cast_shadow};
     use landform_graph::{Boundary, Connectivity};
+    use landform_sim::random::{RandomStream, unit};
 
     fn lattice(size: [usize; 2], boundary: Boundary) -> Lattice {
         Lattice::plane(size, 10.0, Connectivity::FourEight, [boundary; 2]).unwrap()
@@ -250,6 +251,22 @@ mod tests {
         assert_eq!(hidden(180.0, 15.0, 140.0), [0, 1, 2, 3, 4]);
         assert_eq!(hidden(0.0, 0.0, 50.0), [6, 7, 8, 9, 10]);
         assert_eq!(hidden(0.0, 80.0, 140.0), [0; 0]);
+    }
+
+    #[test]
+    fn along_the_axes_it_is_the_shadow_that_dunes_form_by() {
+        let lattice = lattice([64, 48], Boundary::Periodic);
+        let stream = RandomStream::new(4, "surface");
+        let height = |node| 60.0 * unit(stream.block(0, node, 0)[0]);
+        let surface: Vec<f64> = (0..lattice.node_count()).map(height).collect();
+        for towards in [0.0, 90.0, 180.0, 270.0] {
+            let visibility = VisibilitySettings { rise_deg: 15.0, reach_m: 140.0 };
+            let looked = geometric_shadow(&lattice, &surface, &steady(towards), &visibility);
+            let mut cast = vec![false; surface.len()];
+            let wind = WindLine::new(f64::to_radians(towards), 0.5);
+            cast_shadow(&lattice, &surface, &wind, &ShadowSettings::default(), &mut cast);
+            assert_eq!(looked.unwrap(), cast);
+        }
     }
 
     #[test]
