@@ -160,9 +160,10 @@ pub(super) fn settle(
     let mut counts = AvalancheCounts::default();
     while !counts.settled && counts.sweeps < settings.most_sweeps {
         let before = counts.slides;
-        for (place, family) in all.iter().enumerate() {
-            let whole = counts.sweeps == 0;
-            let sweep = Sweep { plane: &plane, family, place, now, families, whole };
+        let round = counts.sweeps;
+        changes.start_round(round, now, families);
+        for family in &all {
+            let sweep = Sweep { plane: &plane, family, round, now, families };
             let slid = sweep.run(layers, changes);
             counts.moved_m += slid.amount;
             counts.slides += slid.slides;

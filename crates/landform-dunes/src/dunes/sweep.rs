@@ -24,16 +24,15 @@ pub(super) struct Slid {
 /// What changed when: scratch of a pass of avalanches.
 ///
 /// Sweeps are numbered. Every family sweeps once a round, so what it has not seen yet changed
-/// in the sweeps since its last one: as many as there are families.
+/// in the sweeps since its last one: as many as there are families, in this round or the last.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Changes {
     /// Sweep that last changed each tile.
     tiles: Vec<u32>,
     /// Sweep that last changed each row.
     rows: Vec<u32>,
-    /// Nodes that the latest sweep of each family changed, one bit a node. Rows that a sweep
-    /// did not visit may hold older bits: looking again does no harm.
-    nodes: Vec<Vec<u64>>,
+    /// Nodes that changed in this round and in the last, a bit each: even rounds, odd rounds.
+    nodes: Vec<[u64; 2]>,
     /// What slid in each row in the sweep under way.
     slid: Vec<Slid>,
 }
@@ -46,9 +45,18 @@ impl Changes {
         renew(&mut self.tiles, tiles, first);
         renew(&mut self.rows, plane.height, first);
         renew(&mut self.slid, plane.height, Slid::default());
-        self.nodes.resize(families, Vec::new());
-        self.nodes.iter_mut().for_each(|nodes| renew(nodes, tiles, 0));
+        renew(&mut self.nodes, tiles, [0; 2]);
         first
+    }
+
+    /// Forgets the nodes that changed in the round before the last.
+    pub fn start_round(&mut self, round: u32, now: u32, families: u32) {
+        let count = self.tiles.len() / self.rows.len();
+        for (nodes, &changed) in self.nodes.chunks_mut(count).zip(&self.rows) {
+            if changed + 2 * families >= now {
+                nodes.iter_mut().for_each(|nodes| nodes[round as usize % 2] = 0);
+            }
+        }
     }
 }
 
@@ -63,14 +71,12 @@ fn renew<T: Clone>(list: &mut Vec<T>, length: usize, value: T) {
 pub(super) struct Sweep<'a> {
     pub plane: &'a Plane,
     pub family: &'a Family,
-    /// Place of the family in the order of a round.
-    pub place: usize,
+    /// Number of the round; the first one looks at every edge.
+    pub round: u32,
     /// Number of this sweep.
     pub now: u32,
     /// Number of families.
     pub families: u32,
-    /// Whether this is the first round, which looks at every edge.
-    pub whole: bool,
 }
 
 impl Sweep<'_> {
@@ -81,14 +87,12 @@ impl Sweep<'_> {
         if due == 0 {
             return total;
         }
-        let mut own = std::mem::take(&mut changes.nodes[self.place]);
         let closing = self.family.rows == 1 && self.family.part == Part::Closing;
         if closing || due * self.plane.width < PARALLEL_NODES {
-            self.run_serially(layers, changes, &mut own);
+            self.run_serially(layers, changes);
         } else {
-            self.run_in_parallel(layers, changes, &mut own);
+            self.run_in_parallel(layers, changes);
         }
-        changes.nodes[self.place] = own;
         for row in self.rows() {
             let slid = std::mem::take(&mut changes.slid[row]);
             if slid.slides > 0 {
@@ -127,19 +131,19 @@ impl Sweep<'_> {
         self.is_new(rows[row]) || self.is_new(rows[self.end(row)])
     }
 
-    fn run_serially(&self, layers: &mut Layers<'_>, changes: &mut Changes, own: &mut [u64]) {
+    fn run_serially(&self, layers: &mut Layers<'_>, changes: &mut Changes) {
         let width = self.plane.width;
         let count = width.div_ceil(TILE);
-        for row in self.rows().filter(|&row| self.is_due(row, &changes.rows)) {
+        let Changes { tiles, rows, nodes, slid } = changes;
+        for row in self.rows().filter(|&row| self.is_due(row, rows)) {
             let end = self.end(row);
-            let edges = EdgeRow { sweep: self, row, end, from: row * width, to: end * width };
-            let tiles = &mut changes.tiles;
-            let mut marks = Marks { tiles, own, from: row * count, to: end * count };
-            changes.slid[row] = edges.sweep(layers, &mut marks, &changes.nodes);
+            let edges = EdgeRow { sweep: self, row, from: row * width, to: end * width };
+            let mut marks = Marks { tiles, nodes, from: row * count, to: end * count };
+            slid[row] = edges.sweep(layers, &mut marks);
         }
     }
 
-    fn run_in_parallel(&self, layers: &mut Layers<'_>, changes: &mut Changes, own: &mut [u64]) {
+    fn run_in_parallel(&self, layers: &mut Layers<'_>, changes: &mut Changes) {
         let width = self.plane.width;
         let count = width.div_ceil(TILE);
         // Rows come singly, or in pairs from the first or the second row on.
@@ -152,20 +156,20 @@ impl Sweep<'_> {
             .zip(layers.bed[first * width..].par_chunks(taken * width));
         let marks = tiles[first * count..]
             .par_chunks_mut(taken * count)
-            .zip(own[first * count..].par_chunks_mut(taken * count))
+            .zip(nodes[first * count..].par_chunks_mut(taken * count))
             .zip(slid[first..].par_chunks_mut(taken));
         fields.zip(marks).enumerate().for_each(|(number, (fields, marks))| {
             let ((sand, surface), bed) = fields;
-            let ((tiles, own), slid) = marks;
+            let ((tiles, nodes), slid) = marks;
             let row = first + number * taken;
             if slid.len() < taken || !self.is_due(row, rows) {
                 return;
             }
-            let [end, to] = [row + self.family.rows, self.family.rows];
-            let edges = EdgeRow { sweep: self, row, end, from: 0, to: to * width };
-            let mut marks = Marks { tiles, own, from: 0, to: to * count };
+            let to = self.family.rows;
+            let edges = EdgeRow { sweep: self, row, from: 0, to: to * width };
+            let mut marks = Marks { tiles, nodes, from: 0, to: to * count };
             let mut layers = Layers { bed, sand, surface };
-            slid[0] = edges.sweep(&mut layers, &mut marks, nodes);
+            slid[0] = edges.sweep(&mut layers, &mut marks);
         });
     }
 }
@@ -174,8 +178,8 @@ impl Sweep<'_> {
 struct Marks<'a> {
     /// When each tile changed.
     tiles: &'a mut [u32],
-    /// Bits of the nodes that this sweep changes.
-    own: &'a mut [u64],
+    /// Nodes that changed in this round and in the last.
+    nodes: &'a mut [[u64; 2]],
     /// Index of the first tile of the row that edges start in.
     from: usize,
     /// Index of the first tile of the row that edges end in.
@@ -188,19 +192,17 @@ struct EdgeRow<'a> {
     sweep: &'a Sweep<'a>,
     /// The row that the edges start in.
     row: usize,
-    /// The row that they end in.
-    end: usize,
-    /// Index of the first node of these rows in the layers at hand.
+    /// Index of the first node of this row, and of the row that they end in, in the layers at
+    /// hand.
     from: usize,
     to: usize,
 }
 
 impl EdgeRow<'_> {
     /// Sweeps the row, except for tiles where nothing changed.
-    fn sweep(&self, layers: &mut Layers<'_>, marks: &mut Marks<'_>, nodes: &[Vec<u64>]) -> Slid {
+    fn sweep(&self, layers: &mut Layers<'_>, marks: &mut Marks<'_>) -> Slid {
         let count = self.sweep.plane.width.div_ceil(TILE);
-        marks.own[marks.from..marks.from + count].fill(0);
-        marks.own[marks.to..marks.to + count].fill(0);
+        let closing = self.closing();
         let mut total = Slid::default();
         for tile in 0..count {
             let beside = self.beside(tile, count);
@@ -208,11 +210,23 @@ impl EdgeRow<'_> {
             if !ends.iter().any(|&end| self.sweep.is_new(marks.tiles[end])) {
                 continue;
             }
-            let edges = match self.sweep.whole {
-                true => self.steep(layers.surface, tile),
-                false => self.changed(nodes, tile, beside),
+            let mut steep = match self.sweep.round {
+                0 => self.steep(layers.surface, tile) & self.starts(tile),
+                _ => {
+                    let changed = self.changed(marks.nodes, ends) & self.starts(tile);
+                    self.steep_of(layers.surface, tile, changed)
+                }
             };
-            let slid = self.slide(layers, marks, tile, edges & self.starts(tile));
+            let mut slid = Slid::default();
+            while steep != 0 {
+                let column = tile * TILE + steep.trailing_zeros() as usize;
+                steep &= steep - 1;
+                let end = column.wrapping_add_signed(self.sweep.family.columns);
+                self.slide(layers, marks, [column, end], &mut slid);
+            }
+            if let Some(edge) = closing.filter(|edge| edge[0] / TILE == tile) {
+                self.slide(layers, marks, edge, &mut slid);
+            }
             if slid.slides > 0 {
                 ends.iter().for_each(|&end| marks.tiles[end] = self.sweep.now);
                 total.amount += slid.amount;
@@ -286,66 +300,63 @@ impl EdgeRow<'_> {
         bits
     }
 
-    /// Bits of the edges of a tile with an end that changed since this family's last sweep.
-    fn changed(&self, nodes: &[Vec<u64>], tile: usize, beside: usize) -> u64 {
-        let count = self.sweep.plane.width.div_ceil(TILE);
-        let [from, to] = [self.row * count, self.end * count];
-        let mut words = [0; 3];
-        // This family's own list is away, so it is empty here.
-        for nodes in nodes.iter().filter(|nodes| !nodes.is_empty()) {
-            for (word, place) in words.iter_mut().zip([from + tile, to + tile, to + beside]) {
-                *word |= nodes[place];
-            }
-        }
-        let [start, end, next] = words;
+    /// Bits of the edges of a tile with an end that changed in this round or the last. `ends`
+    /// are the tile, the tile that straight edges end in, and the one beside that.
+    fn changed(&self, nodes: &[[u64; 2]], ends: [usize; 3]) -> u64 {
+        let [start, end, beside] = ends.map(|end| nodes[end][0] | nodes[end][1]);
         start
             | match self.sweep.family.columns {
-                1 => end >> 1 | next << 63,
-                -1 => end << 1 | next >> 63,
+                1 => end >> 1 | beside << 63,
+                -1 => end << 1 | beside >> 63,
                 _ => end,
             }
     }
 
-    /// Columns of the edge that closes the row, if it starts in this tile.
-    fn closing(&self, tile: usize) -> Option<[usize; 2]> {
+    /// Those of some edges of a tile that are too steep. Sorting them out first, without a
+    /// branch, costs less than to guess wrongly at every edge.
+    fn steep_of(&self, surface: &[f64], tile: usize, mut edges: u64) -> u64 {
+        let trigger = self.sweep.family.rule.trigger();
+        let first = &surface[self.from..];
+        let second = &surface[self.to..];
+        let mut steep = 0;
+        while edges != 0 {
+            let bit = edges.trailing_zeros();
+            edges &= edges - 1;
+            let column = tile * TILE + bit as usize;
+            let end = column.wrapping_add_signed(self.sweep.family.columns);
+            steep |= u64::from((first[column] - second[end]).abs() > trigger) << bit;
+        }
+        steep
+    }
+
+    /// Columns of the edge that closes the row, if the family has one.
+    fn closing(&self) -> Option<[usize; 2]> {
         let Sweep { plane, family, .. } = self.sweep;
         let last = plane.width - 1;
         let (from, to) = if family.columns > 0 { (last, 0) } else { (0, last) };
-        let here = plane.wraps_columns
+        let has_one = plane.wraps_columns
             && family.columns != 0
-            && from / TILE == tile
             && (family.rows == 1 || family.part == Part::Closing)
             && (!family.even_nodes || (from + self.row).is_multiple_of(2));
-        here.then_some([from, to])
+        has_one.then_some([from, to])
     }
 
-    /// Lets sand slide along the edges of a tile given by bits.
+    /// Lets sand slide along one edge, and marks what changed.
     fn slide(
         &self,
         layers: &mut Layers<'_>,
         marks: &mut Marks<'_>,
-        tile: usize,
-        mut edges: u64,
-    ) -> Slid {
-        let family = self.sweep.family;
-        let mut total = Slid::default();
-        let mut slide = |first: usize, second: usize| {
-            let amount = family.rule.slide(layers, self.from + first, self.to + second);
-            if amount > 0.0 {
-                total.amount += amount;
-                total.slides += 1;
-                marks.own[marks.from + first / TILE] |= 1 << (first % TILE);
-                marks.own[marks.to + second / TILE] |= 1 << (second % TILE);
-            }
-        };
-        while edges != 0 {
-            let column = tile * TILE + edges.trailing_zeros() as usize;
-            edges &= edges - 1;
-            slide(column, column.wrapping_add_signed(family.columns));
+        [first, second]: [usize; 2],
+        slid: &mut Slid,
+    ) {
+        let rule = &self.sweep.family.rule;
+        let amount = rule.slide(layers, self.from + first, self.to + second);
+        if amount > 0.0 {
+            slid.amount += amount;
+            slid.slides += 1;
+            let round = self.sweep.round as usize % 2;
+            marks.nodes[marks.from + first / TILE][round] |= 1 << (first % TILE);
+            marks.nodes[marks.to + second / TILE][round] |= 1 << (second % TILE);
         }
-        if let Some([first, second]) = self.closing(tile) {
-            slide(first, second);
-        }
-        total
     }
 }
