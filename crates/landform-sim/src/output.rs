@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use landform_graph::Lattice;
 use serde::Serialize;
 
 use crate::parameters::{Parameters, Problem};
@@ -36,6 +37,21 @@ pub trait Output: Parameters {
 
     /// Fields that the output needs, so that a wrong name is refused before the run.
     fn fields(&self) -> Vec<String>;
+
+    /// The file it writes, below the output folder, or the one from whose name those of
+    /// several files are made. Two outputs may not share one.
+    fn file(&self) -> Option<&Path> {
+        None
+    }
+
+    /// Refuses before the run what the ranges of single parameters do not show: a file name
+    /// that leads out of the output folder, unknown colours, a lattice that cannot be drawn.
+    ///
+    /// # Errors
+    /// The [`Problem`] names the parameter, what was expected and what to do.
+    fn validate(&self, _lattice: &Lattice) -> Result<(), Problem> {
+        Ok(())
+    }
 
     /// The sink that does the work during one run.
     fn open(&self) -> Box<dyn Sink>;

@@ -83,6 +83,17 @@ impl Stop {
         }
     }
 
+    /// Names of the metrics that the rule looks at.
+    pub(crate) fn metrics(&self) -> Vec<&str> {
+        match self {
+            Self::Finished | Self::Iterations(_) => Vec::new(),
+            Self::Below { metric, .. }
+            | Self::Above { metric, .. }
+            | Self::Steady { metric, .. } => vec![metric],
+            Self::Any(rules) => rules.iter().flat_map(Self::metrics).collect(),
+        }
+    }
+
     /// Refuses rules that can never stop a stage or stop it before it does anything.
     pub(crate) fn check(&self, ends: &[u64]) -> Result<(), Problem> {
         let refuse = |message: &str, expected: &str| Err(Problem::new("stop", message, expected));
@@ -95,8 +106,14 @@ impl Stop {
                 refuse("the processes have nothing to do", "a process with at least one iteration")
             }
             Self::Iterations(0) => refuse("the stage has zero iterations", "at least one"),
+            Self::Below { value, .. } | Self::Above { value, .. } if !value.is_finite() => {
+                refuse("the value is never reached", "a finite `value`")
+            }
             Self::Steady { measurements: 0 | 1, .. } => {
                 refuse("one measurement cannot be steady", "`measurements` of at least 2")
+            }
+            Self::Steady { change, .. } if !(change.is_finite() && *change >= 0.0) => {
+                refuse("no change is that small", "a finite `change` of at least 0")
             }
             Self::Any(rules) if rules.is_empty() => refuse("no rule is given", "at least one rule"),
             Self::Any(rules) => rules.iter().try_for_each(|rule| rule.check(ends)),

@@ -26,10 +26,12 @@
 //! The book in `docs/` has a tutorial, a page for each process and a chapter on writing one.
 
 pub mod inputs;
+pub mod metrics;
 pub mod outputs;
 pub mod prelude;
 mod program;
 mod registry;
+pub mod reproduce;
 
 pub use landform_analysis as analysis;
 pub use landform_dunes as dunes;

@@ -3,7 +3,7 @@
 use landform_sim::metric::FieldStatistic;
 use landform_sim::registry::Registry;
 
-use crate::{inputs, outputs};
+use crate::{inputs, metrics, outputs};
 
 /// A registry with everything that Landform offers.
 pub fn registry() -> Registry {
@@ -12,7 +12,7 @@ pub fn registry() -> Registry {
     registry.initial::<inputs::DomainRaster>().initial::<inputs::RasterFile>();
     landform_synth::register(&mut registry);
     landform_dunes::register(&mut registry);
-    registry.metric::<FieldStatistic>();
+    registry.metric::<FieldStatistic>().metric::<metrics::SpectralFalloff>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()

@@ -39,6 +39,8 @@ pub trait NodeField: Send + Sync + 'static {
     const UNIT: &'static str;
     /// What the value means, in a few words.
     const MEANING: &'static str;
+    /// The least value that a run may start with; a thickness is at least zero.
+    const LEAST: f64 = f64::NEG_INFINITY;
 }
 
 /// The component that holds the value of field `F` at a node.

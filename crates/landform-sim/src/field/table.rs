@@ -30,6 +30,8 @@ pub struct FieldEntry {
     pub unit: &'static str,
     /// What the value means.
     pub meaning: &'static str,
+    /// The least value that a run may start with.
+    pub least: f64,
     /// Bytes a node takes, zero for derived fields.
     pub bytes: usize,
     marker: Option<TypeId>,
@@ -49,6 +51,7 @@ impl FieldEntry {
             name: F::NAME,
             unit: F::UNIT,
             meaning: F::MEANING,
+            least: F::LEAST,
             bytes: size_of::<F::Value>() + TICKS,
             marker: Some(TypeId::of::<F>()),
             read: read_column::<F>,
@@ -73,6 +76,7 @@ impl FieldEntry {
             name,
             unit,
             meaning,
+            least: f64::NEG_INFINITY,
             bytes: 0,
             marker: None,
             read,

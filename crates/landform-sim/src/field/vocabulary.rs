@@ -20,4 +20,5 @@ impl NodeField for Sand {
     const NAME: &'static str = "sand";
     const UNIT: &'static str = "m";
     const MEANING: &'static str = "thickness of the loose sand on the bed";
+    const LEAST: f64 = 0.0;
 }

@@ -12,6 +12,11 @@ pub trait Metric: Parameters {
     /// Name in scenarios.
     const NAME: &'static str;
 
+    /// Fields that the metric needs, so that a wrong name is refused before the run.
+    fn fields(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Named values at this moment; an empty list when there is nothing to measure yet. The
     /// names carry their unit (`crest_spacing_m`) and stay the same over the run.
     ///

@@ -72,6 +72,10 @@ impl Default for FieldStatistic {
 impl Metric for FieldStatistic {
     const NAME: &'static str = "FieldStatistic";
 
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
     fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let unknown = |error: crate::field::UnknownField| {
             Problem::new("field", error.to_string(), "a field of the run")

@@ -139,6 +139,9 @@ impl<P: Process> AnyProcess for P {
 
 /// A [`Metric`] without its type.
 pub trait AnyMetric: AnyParameters {
+    /// See [`Metric::fields`].
+    fn fields(&self) -> Vec<String>;
+
     /// See [`Metric::measure`].
     ///
     /// # Errors
@@ -147,6 +150,10 @@ pub trait AnyMetric: AnyParameters {
 }
 
 impl<M: Metric> AnyMetric for M {
+    fn fields(&self) -> Vec<String> {
+        Metric::fields(self)
+    }
+
     fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         Metric::measure(self, snapshot)
     }
@@ -157,6 +164,15 @@ pub trait AnyOutput: AnyParameters {
     /// See [`Output::fields`].
     fn fields(&self) -> Vec<String>;
 
+    /// See [`Output::file`].
+    fn file(&self) -> Option<&Path>;
+
+    /// See [`Output::validate`].
+    ///
+    /// # Errors
+    /// As the output says.
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem>;
+
     /// See [`Output::open`].
     fn open(&self) -> Box<dyn Sink>;
 }
@@ -164,6 +180,14 @@ pub trait AnyOutput: AnyParameters {
 impl<O: Output> AnyOutput for O {
     fn fields(&self) -> Vec<String> {
         Output::fields(self)
+    }
+
+    fn file(&self) -> Option<&Path> {
+        Output::file(self)
+    }
+
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        Output::validate(self, lattice)
     }
 
     fn open(&self) -> Box<dyn Sink> {

@@ -1,5 +1,7 @@
 //! Reading a scenario file and turning what is wrong with it into messages with a place.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -32,16 +34,18 @@ impl ScenarioSource {
     /// A message that says why the file cannot be read as text.
     pub fn open(path: &Path) -> Result<Self, String> {
         let shown = path.display();
-        let size = std::fs::metadata(path)
-            .map_err(|error| format!("cannot read the scenario {shown}: {error}"))?;
-        if size.is_dir() {
+        if path.is_dir() {
             return Err(format!("{shown} is a folder; name a scenario file (*.ron)"));
         }
-        if size.len() > LARGEST_FILE {
-            return Err(format!("{shown} has {} bytes: this is no scenario file", size.len()));
-        }
-        let bytes = std::fs::read(path)
+        let mut bytes = Vec::new();
+        // Pipes and devices do not tell their size.
+        File::open(path)
+            .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
             .map_err(|error| format!("cannot read the scenario {shown}: {error}"))?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            let mib = LARGEST_FILE >> 20;
+            return Err(format!("{shown} has more than {mib} MiB: this is no scenario file"));
+        }
         let text = String::from_utf8(bytes)
             .map_err(|_| format!("{shown} is not text in UTF-8: this is no scenario file"))?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();

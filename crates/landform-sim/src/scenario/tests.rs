@@ -194,7 +194,7 @@ fn names_that_are_unknown_are_refused_with_the_nearest() {
     let message = refused("field: \"sand\"", "field: \"sant\"");
     assert!(message.contains("no field is called `sant`"), "{message}");
     assert!(
-        message.contains("did you mean `sand`?") && message.contains("toy.ron:4:23"),
+        message.contains("did you mean \"sand\"?") && message.contains("toy.ron:4:23"),
         "{message}"
     );
     let message = refused("factor: 4.0", "fctor: 4.0");
@@ -212,6 +212,34 @@ fn values_out_of_range_are_refused_at_their_place() {
     assert!(message.contains("zero iterations"), "{message}");
     let message = refused(", stop: Iterations(2)", "");
     assert!(message.contains("never ends"), "{message}");
+}
+
+#[test]
+fn fields_have_a_least_value_once_all_entries_are_combined() {
+    let message = refused("value: 3.0", "value: -3.0");
+    assert!(message.contains("field `sand` starts with -3 m at node 0"), "{message}");
+    assert!(message.contains("at least 0 m") && message.contains("toy.ron:4"), "{message}");
+    let entry = "from: Uniform(value: 3.0))";
+    let two =
+        "from: Uniform(value: -3.0)), (field: \"sand\", from: Uniform(value: 4.0), combine: Add)";
+    let (result, report) = run(&GOOD.replace(entry, two));
+    result.expect("runs");
+    assert_eq!(report.stages[0].metrics["total_m"], 8.0, "32 nodes x 1, halved twice");
+}
+
+#[test]
+fn a_stop_rule_on_a_metric_that_is_never_measured_is_refused() {
+    let (result, report) = run(&GOOD.replace("total_m", "totel_m"));
+    let message = result.expect_err("nothing measures it").to_string();
+    assert!(message.contains("stages[1].stop: nothing measures `totel_m`"), "{message}");
+    assert!(message.contains("did you mean \"total_m\"?"), "{message}");
+    assert_eq!(report.stages[1].iterations, 1);
+    let message = refused("metrics: [Total()],", "");
+    assert!(message.contains("the scenario measures none"), "{message}");
+    for value in ["NaN", "inf"] {
+        let message = refused("value: 1000.0", &format!("value: {value}"));
+        assert!(message.contains("the value is never reached"), "{message}");
+    }
 }
 
 #[test]

@@ -27,6 +27,12 @@ impl Scenario {
                     .map(|problem| below(&format!("stages[{index}]"), problem)),
             );
         }
+        let waits = |stage: &StageEntry| !stage.stop.metrics().is_empty();
+        if let (true, Some(stage)) = (self.metrics.is_empty(), self.stages.iter().position(waits)) {
+            let message = "the stop rule waits for a metric and the scenario measures none";
+            let expected = "an entry in `metrics`, or another rule";
+            problems.push(Problem::new(format!("stages[{stage}].stop"), message, expected));
+        }
         if self.stages.is_empty() {
             problems.push(Problem::new("stages", "the scenario has no stage", "at least one"));
         }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use bevy_app::App;
+use bevy_ecs::world::World;
 use landform_graph::Lattice;
 
 use super::memory;
@@ -127,6 +128,7 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
     check_processes(&scenario.stages, &domain.lattice)?;
     check_names(scenario, &fields, &uses)?;
+    check_outputs(scenario, &fields, &domain.lattice)?;
     Ok(Plan { domain, fields, uses })
 }
 
@@ -187,9 +189,9 @@ fn check_names(
             return Err(Problem::new(path, message, "a stored field"));
         }
     }
-    for (index, output) in scenario.outputs.iter().enumerate() {
-        for field in output.value.fields() {
-            known_field(fields, &field, format!("outputs[{index}].field"))?;
+    for (index, metric) in scenario.metrics.iter().enumerate() {
+        for field in metric.value.fields() {
+            known_field(fields, &field, format!("metrics[{index}].field"))?;
         }
     }
     let mut provided: Vec<&str> = scenario.initial.iter().map(|e| e.field.as_str()).collect();
@@ -208,6 +210,28 @@ fn check_names(
     Ok(())
 }
 
+/// Checks that every output can be made from the run, and that no two share a file.
+fn check_outputs(
+    scenario: &Scenario,
+    fields: &FieldTable,
+    lattice: &Lattice,
+) -> Result<(), Problem> {
+    for (index, output) in scenario.outputs.iter().enumerate() {
+        let path = format!("outputs[{index}]");
+        for field in output.value.fields() {
+            known_field(fields, &field, format!("{path}.field"))?;
+        }
+        output.value.validate(lattice).map_err(|problem| below(&path, problem))?;
+        let Some(file) = output.value.file() else { continue };
+        let earlier = &scenario.outputs[..index];
+        if let Some(other) = earlier.iter().position(|other| other.value.file() == Some(file)) {
+            let message = format!("outputs[{other}] writes `{}` already", file.display());
+            return Err(Problem::new(format!("{path}.file"), message, "a file of its own"));
+        }
+    }
+    Ok(())
+}
+
 fn known_field<'a>(
     fields: &'a FieldTable,
     name: &str,
@@ -220,7 +244,7 @@ fn known_field<'a>(
             format!("one of {}", unknown.known.join(", ")),
         );
         match nearest(name, unknown.known.iter().copied()) {
-            Some(guess) => problem.help(format!("did you mean `{guess}`?")),
+            Some(guess) => problem.help(format!("did you mean {guess:?}?")),
             None => problem,
         }
     })
@@ -252,6 +276,23 @@ fn fill(app: &mut App, scenario: &Scenario, domain: &Domain, folder: &Path) -> R
             return Err(Problem::new(from, message, "finite values"));
         }
         field.write(world, &values);
+    }
+    check_least(app.world(), scenario)
+}
+
+/// Refuses values below the least that their field may have, once all entries are combined.
+fn check_least(world: &World, scenario: &Scenario) -> Result<(), Problem> {
+    for (index, entry) in scenario.initial.iter().enumerate() {
+        let path = format!("initial[{index}]");
+        let field = known_field(world.resource::<FieldTable>(), &entry.field, path.clone())?;
+        let values = field.read(world);
+        if let Some(node) = values.iter().position(|&value| value < field.least) {
+            let FieldEntry { name, unit, least, .. } = field;
+            let message =
+                format!("field `{name}` starts with {} {unit} at node {node}", values[node]);
+            let help = "raise its mean or lower its amplitude".to_owned();
+            return Err(Problem::new(path, message, format!("at least {least} {unit}")).help(help));
+        }
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use crate::clock::Clock;
 use crate::output::{Moment, OutputFile};
 use crate::parameters::Problem;
 use crate::snapshot::Snapshot;
+use crate::text::nearest;
 
 impl Simulation {
     /// Runs all stages. Outputs write into `folder`, which must exist.
@@ -88,8 +89,8 @@ impl Simulation {
             let reason = |run: &Self| run.stages[stage].stop.reason(iteration, &ends, &run.series);
             // A rule on a metric looks at fresh measurements only.
             let due = iteration.is_multiple_of(self.measure_every);
-            if due {
-                self.measure()?;
+            if due && self.measure()? {
+                self.check_rule(stage)?;
             }
             report.outputs.extend(self.observe(Moment::Iteration, folder)?);
             if let Some(reason) = reason(self) {
@@ -134,13 +135,32 @@ impl Simulation {
         }
     }
 
-    fn measure(&mut self) -> Result<(), RunError> {
+    /// Refuses a stop rule on a metric that nothing measures, once every metric has spoken.
+    fn check_rule(&self, stage: usize) -> Result<(), RunError> {
+        let known = self.series.names();
+        let wanted = self.stages[stage].stop.metrics();
+        let Some(name) = wanted.into_iter().find(|name| known.iter().all(|known| known != name))
+        else {
+            return Ok(());
+        };
+        let message = format!("nothing measures `{name}`, so the stage would never end");
+        let expected = format!("one of {}", known.join(", "));
+        let mut problem = Problem::new(format!("stages[{stage}].stop"), message, expected);
+        if let Some(guess) = nearest(name, known.iter().map(String::as_str)) {
+            problem = problem.help(format!("did you mean {guess:?}?"));
+        }
+        Err(recording("stop rule", problem))
+    }
+
+    /// Measures all metrics and says whether each of them had something to tell.
+    fn measure(&mut self) -> Result<bool, RunError> {
         let mut metrics = std::mem::take(&mut self.metrics);
         let snapshot = self.snapshot();
         let mut row = Vec::new();
-        let mut measured = Ok(());
+        let mut measured = Ok(true);
         for metric in &mut metrics {
             match metric.value.measure(&snapshot) {
+                Ok(values) if values.is_empty() => measured = Ok(false),
                 Ok(values) => row.extend(values),
                 Err(problem) => {
                     measured = Err(recording(metric.name, problem));

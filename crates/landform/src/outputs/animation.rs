@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use landform_graph::Lattice;
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -47,6 +48,15 @@ impl Output for Animation {
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
+    }
+
+    fn file(&self) -> Option<&Path> {
+        Some(&self.file)
+    }
+
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        field_file::check_file(&self.file, &["png", "apng", "gif"])?;
+        self.look.validate(lattice)
     }
 
     fn open(&self) -> Box<dyn Sink> {

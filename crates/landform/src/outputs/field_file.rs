@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use landform_graph::Lattice;
 use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
 use landform_sim::field::FieldEntry;
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
@@ -36,6 +37,14 @@ impl Output for FieldFile {
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
+    }
+
+    fn file(&self) -> Option<&Path> {
+        Some(&self.file)
+    }
+
+    fn validate(&self, _lattice: &Lattice) -> Result<(), Problem> {
+        check_file(&self.file, &["tif", "tiff", "asc", "npy", "png", "raw"])
     }
 
     fn open(&self) -> Box<dyn Sink> {
@@ -74,14 +83,31 @@ pub(super) fn values<'a>(
     Ok((snapshot.field(name).map_err(unknown)?, snapshot.entry(name).map_err(unknown)?))
 }
 
-/// The path of an output below its folder, whose parent folders are made. Paths that lead out
-/// of the folder are refused.
-pub(super) fn below(folder: &Path, file: &Path) -> Result<PathBuf, Problem> {
-    let inside = file.components().all(|part| matches!(part, Component::Normal(_)));
-    if file.file_name().is_none() || !inside {
-        let message = format!("`{}` leads out of the output folder", file.display());
-        return Err(Problem::new("file", message, "a name below the output folder"));
+/// Refuses names of files that lead out of the output folder, lie among what every run writes,
+/// or do not end in one of `extensions`.
+pub(super) fn check_file(file: &Path, extensions: &[&str]) -> Result<(), Problem> {
+    let refuse = |why: &str, expected: &str| {
+        Err(Problem::new("file", format!("`{}` {why}", file.display()), expected))
+    };
+    let mut parts = file.components();
+    if file.file_name().is_none() || !parts.all(|part| matches!(part, Component::Normal(_))) {
+        return refuse("leads out of the output folder", "a name below the output folder");
     }
+    if file.starts_with("fields") {
+        return refuse("lies in the folder of the final fields", "a name outside `fields`");
+    }
+    let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match extensions.contains(&extension.as_str()) {
+        true => Ok(()),
+        false => {
+            let expected = format!("one that ends in .{}", extensions.join(", ."));
+            refuse("ends in no format that is known here", &expected)
+        }
+    }
+}
+
+/// The path of an output below its folder, whose parent folders are made.
+pub(super) fn below(folder: &Path, file: &Path) -> Result<PathBuf, Problem> {
     let path = folder.join(file);
     if let Some(parent) = path.parent() {
         std::fs::create_dir_all(parent).map_err(|error| {

@@ -8,7 +8,7 @@ use landform_sim::snapshot::Snapshot;
 use landform_view::flat::{self, ColourBar};
 use landform_view::perspective::{self, PerspectiveOptions, Surroundings};
 use landform_view::relief::{ReliefOptions, shaded_relief};
-use landform_view::{ColourMap, Ground, HeightField, Image, ViewError, Water};
+use landform_view::{ColourMap, Ground, HeightField, Image, MOST_PIXELS, ViewError, Water};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -172,16 +172,56 @@ impl Look {
         values: &[f64],
         unit: &str,
     ) -> Result<Image, ViewError> {
-        let [width, height] = [lattice.width(), lattice.height()];
-        let heights = || HeightField::new(width, height, lattice.spacing(), values);
+        let size = [lattice.width(), lattice.height()];
+        let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
+        self.picture(size, lattice.spacing(), periodic, values, unit)
+    }
+
+    fn picture(
+        &self,
+        [width, height]: [usize; 2],
+        spacing_m: f64,
+        periodic: bool,
+        values: &[f64],
+        unit: &str,
+    ) -> Result<Image, ViewError> {
+        let heights = || HeightField::new(width, height, spacing_m, values);
         match self {
-            Self::Relief(relief) => {
-                let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
-                shaded_relief(&heights()?, &relief.options(periodic)?)
-            }
+            Self::Relief(relief) => shaded_relief(&heights()?, &relief.options(periodic)?),
             Self::Perspective(view) => perspective::render(&heights()?, &view.options()?),
             Self::Flat(flat) => flat.draw(values, width, height, unit),
         }
+    }
+
+    /// Refuses what cannot be drawn of any field of `lattice`.
+    pub(crate) fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        let nodes = [lattice.width() as f64, lattice.height() as f64];
+        let [width, height] = match self {
+            Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
+            Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
+            Self::Flat(flat) => nodes.map(|nodes| nodes * flat.pixels_per_node as f64),
+        };
+        let pixels = width * height;
+        if !(1.0..=MOST_PIXELS as f64).contains(&pixels) {
+            let message = format!("the picture would have {width:.0} x {height:.0} pixels");
+            return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
+        }
+        let heights = !matches!(self, Self::Flat(_));
+        if heights && lattice.width().min(lattice.height()) < 2 {
+            let message = format!("{} x {} nodes span no surface", nodes[0], nodes[1]);
+            return Err(Problem::new("look", message, "at least 2 x 2 nodes, or the look Flat"));
+        }
+        self.trial().map(|_| ()).map_err(|error| Problem::new("look", error.to_string(), ""))
+    }
+
+    /// A tiny picture with all the settings, for what only drawing finds wrong.
+    fn trial(&self) -> Result<Image, ViewError> {
+        const SIDE: usize = 4;
+        let mut small = self.clone();
+        if let Self::Perspective(view) = &mut small {
+            view.size = (SIDE, SIDE);
+        }
+        small.picture([SIDE, SIDE], 1.0, false, &[0.0; SIDE * SIDE], "")
     }
 
     /// The values of the first and the last colour, when they are given.

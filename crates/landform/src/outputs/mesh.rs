@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use landform_graph::Lattice;
 use landform_io::mesh::{self, height_mesh};
 use landform_io::{IfExists, IoError, Metadata, Raster};
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
@@ -45,6 +46,23 @@ impl Output for Mesh {
         vec![self.field.clone()]
     }
 
+    fn file(&self) -> Option<&Path> {
+        Some(&self.file)
+    }
+
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        field_file::check_file(&self.file, &["glb", "obj", "ply", "stl"])?;
+        colour_map(&self.colours)?;
+        let [width, height, _] = lattice.size();
+        match width.min(height) {
+            0 | 1 => {
+                let message = format!("{width} x {height} nodes span no surface");
+                Err(Problem::new("", message, "at least 2 x 2 nodes"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn open(&self) -> Box<dyn Sink> {
         Box::new(self.clone())
     }
@@ -60,8 +78,7 @@ impl Sink for Mesh {
         if !self.when.is_due(moment, snapshot) {
             return Ok(Vec::new());
         }
-        let colours = ColourMap::named(&self.colours)
-            .map_err(|error| Problem::new("colours", error.to_string(), ""))?;
+        let colours = colour_map(&self.colours)?;
         let (values, entry) = field_file::values(snapshot, &self.field)?;
         let file = self.when.file_name(&self.file, snapshot);
         let path = field_file::below(folder, &file)?;
@@ -71,6 +88,10 @@ impl Sink for Mesh {
             .map_err(|error| Problem::new("file", error.to_string(), ""))?;
         Ok(vec![OutputFile { file, kind: "mesh".to_owned() }])
     }
+}
+
+fn colour_map(name: &str) -> Result<ColourMap, Problem> {
+    ColourMap::named(name).map_err(|error| Problem::new("colours", error.to_string(), ""))
 }
 
 /// Writes the surface of a raster of heights as a mesh, coloured by height.

@@ -51,6 +51,9 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  landform view out/dunes -o dunes.png\n  \
         landform view dem.tif -o dem.png --look perspective --colours batlow")]
     View(ViewArguments),
+    /// Run figures and tables of the thesis over several seeds: our numbers beside the thesis'
+    #[command(after_help = "Example:\n  landform reproduce table_4_1 -o out/table")]
+    Reproduce(ReproduceArguments),
     /// Print a completion script for a shell
     #[command(
         after_help = "Example:\n  landform completions bash > ~/.local/share/bash-completion/completions/landform"
@@ -119,6 +122,22 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_name = "FILE")]
     pub to: PathBuf,
     /// Replace the file if it is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct ReproduceArguments {
+    /// Target files, or their names below scenarios/thesis: table_4_1
+    #[arg(required = true)]
+    pub figures: Vec<String>,
+    /// Output folder; without it a new one below ./out
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Number of seeds, instead of the file's
+    #[arg(long)]
+    pub seeds: Option<u64>,
+    /// Write into an existing folder; files of the same names are replaced
     #[arg(long)]
     pub force: bool,
 }

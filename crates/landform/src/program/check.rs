@@ -5,7 +5,7 @@ use std::sync::Arc;
 use landform_sim::registry::Registry;
 
 use super::arguments::CheckArguments;
-use super::{Failure, Outcome, run};
+use super::{Failure, Outcome, run, talk};
 
 /// Checks every scenario and reports all that are wrong.
 pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Outcome {
@@ -16,7 +16,7 @@ pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Out
             scenario.check(source.folder()).map_err(|problem| source.render(&problem))
         });
         match checked {
-            Ok(()) => println!("{}: good", path.display()),
+            Ok(()) => talk::say(&format!("{}: good\n", path.display()))?,
             Err(message) => messages.push(message),
         }
     }

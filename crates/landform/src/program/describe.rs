@@ -4,7 +4,7 @@ use landform_sim::parameters::ParameterDescription;
 use landform_sim::registry::{Kind, Registry};
 use landform_sim::text::nearest;
 
-use super::{Failure, Outcome};
+use super::{Failure, Outcome, talk};
 
 /// Prints a name's kind, description and parameters, or its JSON schema.
 pub(super) fn describe(name: &str, json: bool, registry: &Registry) -> Outcome {
@@ -14,10 +14,7 @@ pub(super) fn describe(name: &str, json: bool, registry: &Registry) -> Outcome {
         .or_else(|| page("metric", name, json, &registry.metrics))
         .or_else(|| page("output", name, json, &registry.outputs));
     match found {
-        Some(text) => {
-            print!("{text}");
-            Ok(())
-        }
+        Some(text) => talk::say(&text),
         None => Err(Failure::Refused(unknown(name, registry))),
     }
 }
@@ -29,7 +26,7 @@ fn unknown(name: &str, registry: &Registry) -> String {
     names.extend(registry.metrics.names());
     names.extend(registry.outputs.names());
     match nearest(name, names.iter().copied()) {
-        Some(guess) => format!("nothing is called `{name}`; did you mean `{guess}`?"),
+        Some(guess) => format!("nothing is called `{name}`; did you mean {guess:?}?"),
         None => format!("nothing is called `{name}`; `landform list` shows what there is"),
     }
 }

@@ -6,7 +6,7 @@ use landform_io::{IfExists, RasterFile, ReadLimits, read_raster_file, write_rast
 use landform_view::ColourMap;
 
 use super::arguments::ExportArguments;
-use super::{Failure, Outcome};
+use super::{Failure, Outcome, talk};
 use crate::outputs::write_mesh;
 
 /// Writes the field of the arguments.
@@ -26,8 +26,7 @@ pub(super) fn export(arguments: &ExportArguments) -> Outcome {
         _ => write_raster(&arguments.to, &file.raster, &file.metadata, if_exists),
     };
     written.map_err(|error| Failure::Refused(error.to_string()))?;
-    println!("{}", arguments.to.display());
-    Ok(())
+    talk::say(&format!("{}\n", arguments.to.display()))
 }
 
 /// The field of a run's folder.

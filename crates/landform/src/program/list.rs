@@ -2,8 +2,8 @@
 
 use landform_sim::registry::{Kind, Registry};
 
-use super::Outcome;
 use super::arguments::KindName;
+use super::{Outcome, talk};
 
 /// Prints the names of one kind or of all, with the first sentence of each.
 pub(super) fn list(kind: Option<KindName>, registry: &Registry) -> Outcome {
@@ -24,8 +24,7 @@ pub(super) fn list(kind: Option<KindName>, registry: &Registry) -> Outcome {
     if shows(KindName::Outputs) {
         text += &section("outputs", &registry.outputs);
     }
-    print!("{text}");
-    Ok(())
+    talk::say(&text)
 }
 
 fn section<T: ?Sized>(title: &str, kind: &Kind<T>) -> String {

@@ -9,7 +9,9 @@ mod interrupt;
 mod list;
 mod memory;
 mod progress_bar;
+mod reproduce;
 mod run;
+mod talk;
 mod view;
 
 use std::process::ExitCode;
@@ -69,10 +71,12 @@ impl Program {
             Command::Describe { name, json } => describe::describe(&name, json, &registry),
             Command::Export(arguments) => export::export(&arguments),
             Command::View(arguments) => view::view(&arguments),
+            Command::Reproduce(arguments) => reproduce::reproduce(&arguments, &registry),
             Command::Completions { shell } => {
                 let mut command = Arguments::command();
-                clap_complete::generate(shell, &mut command, "landform", &mut std::io::stdout());
-                Ok(())
+                let mut script = Vec::new();
+                clap_complete::generate(shell, &mut command, "landform", &mut script);
+                talk::say(&String::from_utf8_lossy(&script))
             }
         };
         let (message, code) = match outcome {
@@ -81,10 +85,7 @@ impl Program {
             Err(Failure::Failed(message)) => (message, 1),
             Err(Failure::Interrupted(message)) => (message, 130),
         };
-        match message.starts_with("error") {
-            true => eprintln!("{message}"),
-            false => eprintln!("error: {message}"),
-        }
+        talk::complain(&message);
         ExitCode::from(code)
     }
 }

@@ -11,7 +11,7 @@ use landform_sim::simulation::{Limits, Report, RunError, Simulation};
 
 use super::arguments::RunArguments;
 use super::progress_bar::Bar;
-use super::{Failure, Outcome, folder, interrupt, memory};
+use super::{Failure, Outcome, folder, interrupt, memory, talk};
 use crate::outputs::{metadata, raster_of};
 
 /// Runs the scenario of the arguments.
@@ -34,8 +34,7 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         bar.finish();
         finish(&simulation, &source, &folder, &mut report).map_err(Failure::Failed)?;
         result.map_err(|error| failure(error, &folder))?;
-        print!("{}", summary(&report, &folder));
-        Ok(())
+        talk::say(&summary(&report, &folder))
     })
 }
 

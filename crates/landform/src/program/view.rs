@@ -4,7 +4,7 @@ use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_io::{RasterFile, ReadLimits, read_raster_file};
 
 use super::arguments::{LookName, ViewArguments};
-use super::{Failure, Outcome, export};
+use super::{Failure, Outcome, export, talk};
 use crate::outputs::{Flat, Look, Perspective, Relief};
 
 /// Draws the source of the arguments.
@@ -12,6 +12,10 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     if arguments.output.exists() && !arguments.force {
         let shown = arguments.output.display();
         return Err(Failure::Refused(format!("{shown} exists; use --force to replace it")));
+    }
+    if arguments.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
+        let shown = arguments.output.display();
+        return Err(Failure::Refused(format!("{shown}: pictures are PNG; use a name in .png")));
     }
     let file = source(arguments).map_err(Failure::Refused)?;
     let raster = &file.raster;
@@ -37,8 +41,7 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     image
         .write_png(&arguments.output, &text)
         .map_err(|error| Failure::Refused(error.to_string()))?;
-    println!("{}", arguments.output.display());
-    Ok(())
+    talk::say(&format!("{}\n", arguments.output.display()))
 }
 
 fn source(arguments: &ViewArguments) -> Result<RasterFile, String> {

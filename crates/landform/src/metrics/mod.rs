@@ -1,0 +1,5 @@
+//! Metrics that need more than the framework: spectra.
+
+mod spectral;
+
+pub use spectral::SpectralFalloff;

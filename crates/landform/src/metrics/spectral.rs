@@ -1,0 +1,48 @@
+//! How the spectrum of a field falls off.
+
+use landform_analysis::{RadialSpectrum, SpectralFit, Spectrum};
+use landform_sim::metric::Metric;
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How well the spectrum of a field falls off as a power of frequency: RMS and R2 of the thesis'
+/// fit (section 2.1.6) and the exponent beta of the radially averaged power.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpectralFalloff {
+    /// Name of the field.
+    pub field: String,
+}
+
+impl Default for SpectralFalloff {
+    fn default() -> Self {
+        Self { field: "surface".to_owned() }
+    }
+}
+
+impl Metric for SpectralFalloff {
+    const NAME: &'static str = "SpectralFalloff";
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+        let refuse = |message: String| Problem::new("field", message, "");
+        let heights = snapshot.field(&self.field).map_err(|error| refuse(error.to_string()))?;
+        let spectrum = Spectrum::new(snapshot.lattice(), &heights)
+            .map_err(|error| refuse(error.to_string()))?;
+        let mut values = Vec::new();
+        // A level surface has no spectrum to fit: there is nothing to measure yet.
+        if let Ok(fit) = SpectralFit::new(&spectrum) {
+            values.push(("spectral_rms".to_owned(), fit.rms));
+            values.push(("spectral_r2".to_owned(), fit.r_squared));
+        }
+        if let Ok(exponent) = RadialSpectrum::usual(&spectrum).exponent() {
+            values.push(("spectral_beta".to_owned(), exponent.beta));
+        }
+        Ok(values)
+    }
+}

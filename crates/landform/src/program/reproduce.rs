@@ -1,0 +1,107 @@
+//! `landform reproduce`: numbers of the thesis beside ours.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use landform_sim::registry::Registry;
+use landform_sim::simulation::Limits;
+use serde::Serialize;
+
+use super::arguments::ReproduceArguments;
+use super::{Failure, Outcome, folder, interrupt, memory};
+use crate::reproduce::{Figure, FigureReport, measure};
+
+/// What `report.json` holds.
+#[derive(Serialize)]
+struct Reproduction {
+    version: &'static str,
+    figures: Vec<FigureReport>,
+}
+
+/// Reproduces the figures of the arguments.
+pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>) -> Outcome {
+    let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
+    let mut figures = Vec::new();
+    for name in &arguments.figures {
+        let path = find(name).map_err(Failure::Refused)?;
+        let figure = read(&path).map_err(Failure::Refused)?;
+        figures.push((path, figure));
+    }
+    let folder = folder::make(arguments.output.as_deref(), "reproduction", arguments.force)
+        .map_err(Failure::Refused)?;
+    interrupt::watch();
+    let mut reports = Vec::new();
+    for (path, mut figure) in figures {
+        figure.seeds = arguments.seeds.unwrap_or(figure.seeds);
+        let base = path.parent().unwrap_or(Path::new("")).to_owned();
+        let mut tell = |what: &str| {
+            eprintln!("{}: {what}", figure.id);
+            match interrupt::asked() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let limits = Limits { memory_bytes };
+        let report = measure(&figure, &base, &folder, registry, limits, &mut tell);
+        let report = report.map_err(|message| match interrupt::asked() {
+            true => Failure::Interrupted(message),
+            false => Failure::Failed(message),
+        })?;
+        print!("{}", table(&report));
+        reports.push(report);
+    }
+    let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: reports };
+    folder::write_json(&folder.join("report.json"), &reproduction).map_err(Failure::Failed)?;
+    println!("report {}", folder.join("report.json").display());
+    Ok(())
+}
+
+/// The target file of a figure: a path, or the name of a file below `scenarios/thesis`.
+fn find(name: &str) -> Result<PathBuf, String> {
+    let named = Path::new("scenarios/thesis").join(format!("{name}.targets.ron"));
+    let candidates = [PathBuf::from(name), named.clone()];
+    candidates
+        .into_iter()
+        .find(|path| path.is_file())
+        .ok_or_else(|| format!("there is no target file {name}, nor {}", named.display()))
+}
+
+fn read(path: &Path) -> Result<Figure, String> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let source = landform_sim::text::Source::new(path.display().to_string(), text);
+    let options = ron::Options::default()
+        .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
+        .with_default_extension(ron::extensions::Extensions::UNWRAP_VARIANT_NEWTYPES);
+    options
+        .from_str(source.text())
+        .map_err(|error| landform_sim::text::ron_diagnostic(&source, &error).render(&source))
+}
+
+/// The numbers of a figure as a table.
+fn table(report: &FigureReport) -> String {
+    let width = report.targets.iter().map(|target| target.name.len()).max().unwrap_or(0);
+    let mut text = format!("{}: {}\n", report.id, report.title);
+    text += &format!(
+        "  {:width$}  {:>9}  {:>9}  {:>18}  {:>16}  verdict\n",
+        "", "thesis", "ours", "over the seeds", "band"
+    );
+    for target in &report.targets {
+        let thesis = target.thesis.map_or("-".to_owned(), |value| value.to_string());
+        let low = target.seeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = target.seeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        text += &format!(
+            "  {:width$}  {thesis:>9}  {:>9.2}  {:>18}  {:>16}  {:?}\n",
+            target.name,
+            target.value,
+            format!("{low:.2} to {high:.2}"),
+            target.band,
+            target.verdict,
+        );
+        if !target.reason.is_empty() {
+            text += &format!("  {:width$}    {}\n", "", target.reason);
+        }
+    }
+    text
+}
