@@ -122,21 +122,36 @@ pub(super) struct Family {
     pub rule: SlideRule,
 }
 
-/// All edges of a lattice, as families in the order in which they are swept.
+impl Family {
+    /// Whether two families have edges in the same rows, or pairs of rows. They can be swept
+    /// row by row together: what one row or pair does cannot matter to another.
+    fn shares_rows(&self, other: &Self) -> bool {
+        self.rows == other.rows && (self.rows == 0 || self.part == other.part)
+    }
+}
+
+/// All edges of a lattice, as families in the order in which they are swept: along rows, then
+/// between even rows and the next, odd rows and the next, and over a periodic border.
 pub(super) fn families(lattice: &Lattice, repose: f64, slab: f64) -> Vec<Family> {
-    let directions: &[(isize, usize)] = match lattice.connectivity() {
-        Connectivity::FourEight | Connectivity::Eight => &[(1, 0), (0, 1), (1, 1), (-1, 1)],
-        _ => &[(1, 0), (0, 1)],
+    let between: &[isize] = match lattice.connectivity() {
+        Connectivity::FourEight | Connectivity::Eight => &[0, 1, -1],
+        _ => &[0],
     };
     let mut families = Vec::new();
-    for &(columns, rows) in directions {
-        let diagonal = columns != 0 && rows != 0;
-        let length = lattice.step_length([columns as i8, rows as i8, 0]);
-        let rule = SlideRule::new(repose, length, slab);
-        let even_nodes = diagonal && lattice.connectivity() == Connectivity::FourEight;
+    for (rows, steps) in [(0, &[1][..]), (1, between)] {
         for part in [Part::Even, Part::Odd, Part::Closing] {
-            if part != Part::Closing || lattice.is_periodic(rows) {
-                families.push(Family { columns, rows, part, even_nodes, rule });
+            for &columns in
+                steps.iter().filter(|_| part != Part::Closing || lattice.is_periodic(rows))
+            {
+                let length = lattice.step_length([columns as i8, rows as i8, 0]);
+                let diagonal = columns != 0 && rows != 0;
+                families.push(Family {
+                    columns,
+                    rows,
+                    part,
+                    even_nodes: diagonal && lattice.connectivity() == Connectivity::FourEight,
+                    rule: SlideRule::new(repose, length, slab),
+                });
             }
         }
     }
@@ -162,12 +177,12 @@ pub(super) fn settle(
         let before = counts.slides;
         let round = counts.sweeps;
         changes.start_round(round, now, families);
-        for family in &all {
-            let sweep = Sweep { plane: &plane, family, round, now, families };
+        for group in all.chunk_by(Family::shares_rows) {
+            let sweep = Sweep { plane: &plane, group, round, now, families };
             let slid = sweep.run(layers, changes);
             counts.moved_m += slid.amount;
             counts.slides += slid.slides;
-            now += 1;
+            now += group.len() as u32;
         }
         counts.sweeps += 1;
         counts.settled = counts.slides == before;

@@ -1,4 +1,4 @@
-//! One sweep over a family of edges: which rows and edges to look at, serially or in parallel.
+//! One sweep over families of edges: which rows and edges to look at, serially or in parallel.
 
 use rayon::prelude::*;
 
@@ -66,16 +66,16 @@ fn renew<T: Clone>(list: &mut Vec<T>, length: usize, value: T) {
     list.resize(length, value);
 }
 
-/// One sweep over the edges of a family.
+/// One sweep over the edges of families that share rows, or pairs of rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sweep<'a> {
     pub plane: &'a Plane,
-    pub family: &'a Family,
+    pub group: &'a [Family],
     /// Number of the round; the first one looks at every edge.
     pub round: u32,
-    /// Number of this sweep.
+    /// Number of the first family's sweep; those of the others follow.
     pub now: u32,
-    /// Number of families.
+    /// Number of all families.
     pub families: u32,
 }
 
@@ -87,19 +87,20 @@ impl Sweep<'_> {
         if due == 0 {
             return total;
         }
-        let closing = self.family.rows == 1 && self.family.part == Part::Closing;
+        let closing = self.group[0].rows == 1 && self.group[0].part == Part::Closing;
         if closing || due * self.plane.width < PARALLEL_NODES {
             self.run_serially(layers, changes);
         } else {
             self.run_in_parallel(layers, changes);
         }
+        let last = self.now + self.group.len() as u32 - 1;
         for row in self.rows() {
             let slid = std::mem::take(&mut changes.slid[row]);
             if slid.slides > 0 {
                 total.amount += slid.amount;
                 total.slides += slid.slides;
-                changes.rows[row] = self.now;
-                changes.rows[self.end(row)] = self.now;
+                changes.rows[row] = last;
+                changes.rows[self.end(row)] = last;
             }
         }
         total
@@ -108,7 +109,7 @@ impl Sweep<'_> {
     /// Rows that edges start in, in order.
     fn rows(&self) -> std::iter::StepBy<std::ops::Range<usize>> {
         let height = self.plane.height;
-        match (self.family.rows, self.family.part) {
+        match (self.group[0].rows, self.group[0].part) {
             (0, _) => (0..height).step_by(1),
             (_, Part::Even) => (0..height - 1).step_by(2),
             (_, Part::Odd) => (1..(height - 1).max(1)).step_by(2),
@@ -118,17 +119,13 @@ impl Sweep<'_> {
 
     /// The row that edges from `row` end in.
     fn end(&self, row: usize) -> usize {
-        (row + self.family.rows) % self.plane.height
+        (row + self.group[0].rows) % self.plane.height
     }
 
-    /// Whether a sweep is later than the last one of this family.
-    fn is_new(&self, sweep: u32) -> bool {
-        sweep > self.now - self.families
-    }
-
-    /// Whether something changed in a row or the row that its edges end in.
+    /// Whether something changed in a row or the row that its edges end in since the last
+    /// sweep of the first family.
     fn is_due(&self, row: usize, rows: &[u32]) -> bool {
-        self.is_new(rows[row]) || self.is_new(rows[self.end(row)])
+        rows[row].max(rows[self.end(row)]) > self.now - self.families
     }
 
     fn run_serially(&self, layers: &mut Layers<'_>, changes: &mut Changes) {
@@ -137,9 +134,9 @@ impl Sweep<'_> {
         let Changes { tiles, rows, nodes, slid } = changes;
         for row in self.rows().filter(|&row| self.is_due(row, rows)) {
             let end = self.end(row);
-            let edges = EdgeRow { sweep: self, row, from: row * width, to: end * width };
+            let [from, to] = [row * width, end * width];
             let mut marks = Marks { tiles, nodes, from: row * count, to: end * count };
-            slid[row] = edges.sweep(layers, &mut marks);
+            slid[row] = self.sweep_row([row, from, to], layers, &mut marks);
         }
     }
 
@@ -147,8 +144,8 @@ impl Sweep<'_> {
         let width = self.plane.width;
         let count = width.div_ceil(TILE);
         // Rows come singly, or in pairs from the first or the second row on.
-        let taken = self.family.rows + 1;
-        let first = usize::from(self.family.rows == 1 && self.family.part == Part::Odd);
+        let taken = self.group[0].rows + 1;
+        let first = usize::from(self.group[0].rows == 1 && self.group[0].part == Part::Odd);
         let Changes { tiles, rows, nodes, slid } = changes;
         let fields = layers.sand[first * width..]
             .par_chunks_mut(taken * width)
@@ -165,12 +162,29 @@ impl Sweep<'_> {
             if slid.len() < taken || !self.is_due(row, rows) {
                 return;
             }
-            let to = self.family.rows;
-            let edges = EdgeRow { sweep: self, row, from: 0, to: to * width };
+            let to = self.group[0].rows;
             let mut marks = Marks { tiles, nodes, from: 0, to: to * count };
             let mut layers = Layers { bed, sand, surface };
-            slid[0] = edges.sweep(&mut layers, &mut marks);
+            slid[0] = self.sweep_row([row, 0, to * width], &mut layers, &mut marks);
         });
+    }
+
+    /// Sweeps the edges of all families that start in a row. `from` and `to` are the first
+    /// nodes, in the layers at hand, of the rows that edges start and end in.
+    fn sweep_row(
+        &self,
+        [row, from, to]: [usize; 3],
+        layers: &mut Layers<'_>,
+        marks: &mut Marks<'_>,
+    ) -> Slid {
+        let mut total = Slid::default();
+        for (family, now) in self.group.iter().zip(self.now..) {
+            let edges = EdgeRow { sweep: self, family, now, row, from, to };
+            let slid = edges.sweep(layers, marks);
+            total.amount += slid.amount;
+            total.slides += slid.slides;
+        }
+        total
     }
 }
 
@@ -190,6 +204,9 @@ struct Marks<'a> {
 #[derive(Clone, Copy, Debug)]
 struct EdgeRow<'a> {
     sweep: &'a Sweep<'a>,
+    family: &'a Family,
+    /// Number of the family's sweep.
+    now: u32,
     /// The row that the edges start in.
     row: usize,
     /// Index of the first node of this row, and of the row that they end in, in the layers at
@@ -207,7 +224,7 @@ impl EdgeRow<'_> {
         for tile in 0..count {
             let beside = self.beside(tile, count);
             let ends = [marks.from + tile, marks.to + tile, marks.to + beside];
-            if !ends.iter().any(|&end| self.sweep.is_new(marks.tiles[end])) {
+            if !ends.iter().any(|&end| marks.tiles[end] > self.now - self.sweep.families) {
                 continue;
             }
             let mut steep = match self.sweep.round {
@@ -221,14 +238,14 @@ impl EdgeRow<'_> {
             while steep != 0 {
                 let column = tile * TILE + steep.trailing_zeros() as usize;
                 steep &= steep - 1;
-                let end = column.wrapping_add_signed(self.sweep.family.columns);
+                let end = column.wrapping_add_signed(self.family.columns);
                 self.slide(layers, marks, [column, end], &mut slid);
             }
             if let Some(edge) = closing.filter(|edge| edge[0] / TILE == tile) {
                 self.slide(layers, marks, edge, &mut slid);
             }
             if slid.slides > 0 {
-                ends.iter().for_each(|&end| marks.tiles[end] = self.sweep.now);
+                ends.iter().for_each(|&end| marks.tiles[end] = self.now);
                 total.amount += slid.amount;
                 total.slides += slid.slides;
             }
@@ -238,7 +255,7 @@ impl EdgeRow<'_> {
 
     /// The other tile that edges from `tile` may end in.
     fn beside(&self, tile: usize, count: usize) -> usize {
-        match self.sweep.family.columns {
+        match self.family.columns {
             1 if tile + 1 == count => 0,
             1 => tile + 1,
             -1 if tile == 0 => count - 1,
@@ -251,7 +268,7 @@ impl EdgeRow<'_> {
     /// closes the row.
     fn starts(&self, tile: usize) -> u64 {
         const EVEN: u64 = 0x5555_5555_5555_5555;
-        let family = self.sweep.family;
+        let family = self.family;
         let kind = match (family.rows, family.part) {
             (0, Part::Even) => EVEN,
             (0, Part::Odd) => !EVEN,
@@ -269,7 +286,7 @@ impl EdgeRow<'_> {
 
     /// Columns of a tile from which a step stays in the row.
     fn inner(&self, tile: usize) -> std::ops::Range<usize> {
-        let columns = self.sweep.family.columns;
+        let columns = self.family.columns;
         let first = (tile * TILE).max(usize::from(columns < 0));
         let last = ((tile + 1) * TILE).min(self.sweep.plane.width - usize::from(columns > 0));
         first..last.max(first)
@@ -277,10 +294,10 @@ impl EdgeRow<'_> {
 
     /// Bits of the edges of a tile that are too steep. Edges of other parts may be among them.
     fn steep(&self, surface: &[f64], tile: usize) -> u64 {
-        let trigger = self.sweep.family.rule.trigger();
+        let trigger = self.family.rule.trigger();
         let inner = self.inner(tile);
         let first = &surface[self.from + inner.start..self.from + inner.end];
-        let end = (self.to + inner.start).wrapping_add_signed(self.sweep.family.columns);
+        let end = (self.to + inner.start).wrapping_add_signed(self.family.columns);
         let second = &surface[end..end + inner.len()];
         let is_steep = |a: f64, b: f64| u64::from((a - b).abs() > trigger);
         let (first_groups, first_rest) = first.as_chunks::<GROUP>();
@@ -305,7 +322,7 @@ impl EdgeRow<'_> {
     fn changed(&self, nodes: &[[u64; 2]], ends: [usize; 3]) -> u64 {
         let [start, end, beside] = ends.map(|end| nodes[end][0] | nodes[end][1]);
         start
-            | match self.sweep.family.columns {
+            | match self.family.columns {
                 1 => end >> 1 | beside << 63,
                 -1 => end << 1 | beside >> 63,
                 _ => end,
@@ -315,7 +332,7 @@ impl EdgeRow<'_> {
     /// Those of some edges of a tile that are too steep. Sorting them out first, without a
     /// branch, costs less than to guess wrongly at every edge.
     fn steep_of(&self, surface: &[f64], tile: usize, mut edges: u64) -> u64 {
-        let trigger = self.sweep.family.rule.trigger();
+        let trigger = self.family.rule.trigger();
         let first = &surface[self.from..];
         let second = &surface[self.to..];
         let mut steep = 0;
@@ -323,7 +340,7 @@ impl EdgeRow<'_> {
             let bit = edges.trailing_zeros();
             edges &= edges - 1;
             let column = tile * TILE + bit as usize;
-            let end = column.wrapping_add_signed(self.sweep.family.columns);
+            let end = column.wrapping_add_signed(self.family.columns);
             steep |= u64::from((first[column] - second[end]).abs() > trigger) << bit;
         }
         steep
@@ -331,7 +348,7 @@ impl EdgeRow<'_> {
 
     /// Columns of the edge that closes the row, if the family has one.
     fn closing(&self) -> Option<[usize; 2]> {
-        let Sweep { plane, family, .. } = self.sweep;
+        let Self { sweep: Sweep { plane, .. }, family, .. } = self;
         let last = plane.width - 1;
         let (from, to) = if family.columns > 0 { (last, 0) } else { (0, last) };
         let has_one = plane.wraps_columns
@@ -349,7 +366,7 @@ impl EdgeRow<'_> {
         [first, second]: [usize; 2],
         slid: &mut Slid,
     ) {
-        let rule = &self.sweep.family.rule;
+        let rule = &self.family.rule;
         let amount = rule.slide(layers, self.from + first, self.to + second);
         if amount > 0.0 {
             slid.amount += amount;
