@@ -199,7 +199,7 @@ pub(super) fn survey(sheltered: &[bool], sand: &[f64], slab: f64, ground: &mut [
     let states = sheltered.par_chunks(CHUNK).zip(sand.par_chunks(CHUNK));
     ground.par_chunks_mut(CHUNK).zip(states).for_each(|(ground, (sheltered, sand))| {
         for ((ground, &sheltered), &sand) in ground.iter_mut().zip(sheltered).zip(sand) {
-            *ground = SAND * u8::from(sand >= slab) | SHELTERED * u8::from(sheltered);
+            *ground = (SAND * u8::from(sand >= slab)) | (SHELTERED * u8::from(sheltered));
         }
     });
 }
