@@ -26,6 +26,8 @@ pub struct Report {
     pub threads: usize,
     /// Seconds that the run took, without building it.
     pub seconds: f64,
+    /// Metrics before the first iteration.
+    pub initial_metrics: BTreeMap<String, f64>,
     /// The stages that were run.
     pub stages: Vec<StageReport>,
     /// Latest value of each metric.

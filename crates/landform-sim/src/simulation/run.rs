@@ -1,5 +1,6 @@
 //! The loop: stages, iterations, measurements, outputs, stop rules.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -44,6 +45,7 @@ impl Simulation {
         report: &mut Report,
     ) -> Result<(), RunError> {
         self.measure()?;
+        report.initial_metrics = self.latest_metrics();
         report.outputs.extend(self.observe(Moment::Start, folder)?);
         for stage in 0..self.stages.len() {
             let mut clock = self.app.world_mut().resource_mut::<Clock>();
@@ -55,12 +57,11 @@ impl Simulation {
                 ..StageReport::default()
             });
             let result = self.run_stage(stage, folder, hook, report);
-            let series = &self.series;
+            let metrics = self.latest_metrics();
             if let Some(summary) = report.stages.last_mut() {
                 summary.iterations = self.app.world().resource::<Clock>().iteration;
                 summary.seconds = start.elapsed().as_secs_f64();
-                let latest = |name: &String| Some((name.clone(), series.latest(name)?));
-                summary.metrics = series.names().iter().filter_map(latest).collect();
+                summary.metrics = metrics;
                 summary.stopped = match &result {
                     Ok(reason) => reason.clone(),
                     Err(error) => error.to_string(),
@@ -192,6 +193,12 @@ impl Simulation {
         result.map(|()| files)
     }
 
+    /// Latest value of each metric.
+    fn latest_metrics(&self) -> BTreeMap<String, f64> {
+        let latest = |name: &String| Some((name.clone(), self.series.latest(name)?));
+        self.series.names().iter().filter_map(latest).collect()
+    }
+
     fn summarise(&self, report: &mut Report) {
         let snapshot = self.snapshot();
         report.title = self.title.clone();
@@ -201,8 +208,7 @@ impl Simulation {
         report.nodes = self.domain.lattice.node_count();
         report.spacing_m = self.domain.lattice.spacing();
         report.threads = rayon::current_num_threads();
-        let latest = |name: &String| Some((name.clone(), self.series.latest(name)?));
-        report.metrics = self.series.names().iter().filter_map(latest).collect();
+        report.metrics = self.latest_metrics();
         report.ledger = snapshot.ledger().clone();
         report.warnings = self.warnings.clone();
     }

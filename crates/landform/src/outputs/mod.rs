@@ -10,7 +10,7 @@ mod when;
 
 pub use animation::Animation;
 pub use field_file::FieldFile;
-pub use look::{Flat, Look, Perspective, Relief};
+pub use look::{Density, Flat, Look, Perspective, Relief};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;

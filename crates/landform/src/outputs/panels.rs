@@ -22,9 +22,10 @@ pub struct Panels {
     pub file: PathBuf,
     /// Name of the field.
     pub field: String,
-    /// How it is drawn.
-    pub look: Look,
-    /// Texts below the panels, first the one of the start; stage names where they are missing.
+    /// How it is drawn: a panel a look for each state.
+    #[schemars(length(min = 1))]
+    pub looks: Vec<Look>,
+    /// Texts below the panels, in order; stage names where they are missing.
     pub captions: Vec<String>,
     /// Whether all panels share the range of colours of the last one.
     pub same_colours: bool,
@@ -35,7 +36,7 @@ impl Default for Panels {
         Self {
             file: "panels.png".into(),
             field: "surface".to_owned(),
-            look: Look::default(),
+            looks: vec![Look::default()],
             captions: Vec::new(),
             same_colours: true,
         }
@@ -55,7 +56,7 @@ impl Output for Panels {
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         field_file::check_file(&self.file, &["png"])?;
-        self.look.validate(lattice)
+        self.looks.iter().try_for_each(|look| look.validate(lattice))
     }
 
     fn open(&self) -> Box<dyn Sink> {
@@ -79,12 +80,11 @@ impl Sink for PanelSink {
         match moment {
             Moment::Start | Moment::StageEnd => {
                 let (values, _) = field_file::values(snapshot, &self.settings.field)?;
-                let caption = self.settings.captions.get(self.states.len()).cloned();
                 let name = match moment {
                     Moment::Start => "initial",
                     _ => snapshot.stage_name(),
                 };
-                self.states.push((caption.unwrap_or_else(|| name.to_owned()), values));
+                self.states.push((name.to_owned(), values));
                 Ok(Vec::new())
             }
             Moment::Iteration => Ok(Vec::new()),
@@ -97,22 +97,29 @@ impl PanelSink {
     fn draw(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {
         let settings = &self.settings;
         let (_, entry) = field_file::values(snapshot, &settings.field)?;
-        let mut look = settings.look.clone();
-        if let (true, None, Some((_, last))) =
-            (settings.same_colours, look.range(), self.states.last())
-        {
-            let [low, high] = landform_view::flat::finite_range(last);
-            look = look.with_range((low, high));
-        }
         let mut row = Row { heading: String::new(), panels: Vec::new() };
-        for (caption, values) in &self.states {
-            let image = look.draw(snapshot.lattice(), values, entry.unit);
-            let image = image.map_err(|error| problem(&error))?;
-            row.panels.push(Panel { image, caption: caption.clone() });
+        for (name, values) in &self.states {
+            for look in &settings.looks {
+                let look = self.with_shared_colours(look);
+                let image = look.draw(snapshot.lattice(), values, entry.unit);
+                let image = image.map_err(|error| problem(&error))?;
+                let caption = settings.captions.get(row.panels.len()).unwrap_or(name).clone();
+                row.panels.push(Panel { image, caption });
+            }
         }
         let figure = panels(&[row], &MontageOptions::default()).map_err(|error| problem(&error))?;
         let path = field_file::below(folder, &settings.file)?;
         write_picture(&figure, &path, &picture_text(snapshot, &settings.field))?;
         Ok(vec![OutputFile { file: settings.file.clone(), kind: "picture".to_owned() }])
+    }
+    /// The look with the range of the last state, unless it has one or panels keep their own.
+    fn with_shared_colours(&self, look: &Look) -> Look {
+        match (self.settings.same_colours, look.range(), self.states.last()) {
+            (true, None, Some((_, last))) => {
+                let [low, high] = landform_view::flat::finite_range(last);
+                look.clone().with_range((low, high))
+            }
+            _ => look.clone(),
+        }
     }
 }

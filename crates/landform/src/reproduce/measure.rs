@@ -60,6 +60,9 @@ pub struct TargetReport {
     pub reason: String,
 }
 
+/// Name under which a target finds the metrics of the state before the first iteration.
+const INITIAL: &str = "initial";
+
 /// Metrics by stage of one run.
 type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
 
@@ -94,7 +97,9 @@ pub fn measure(
                     .map(|output| Path::new(&run.name).join(&output.file)),
             );
             let stages = report.stages.into_iter().map(|stage| (stage.name, stage.metrics));
-            metrics.insert(run.name.as_str(), stages.collect::<StageMetrics>());
+            let mut stages: StageMetrics = stages.collect();
+            stages.insert(INITIAL.to_owned(), report.initial_metrics);
+            metrics.insert(run.name.as_str(), stages);
         }
         for (target, values) in figure.targets.iter().zip(&mut values) {
             values.push(quantity(&target.value, &metrics)?);

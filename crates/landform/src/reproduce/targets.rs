@@ -63,7 +63,8 @@ pub enum Quantity {
 pub struct Source {
     /// Name of the run.
     pub run: String,
-    /// Name of the stage at whose end it is measured.
+    /// Name of the stage at whose end it is measured; `initial` for the state before the first
+    /// iteration.
     pub stage: String,
     /// Name of the metric in the series.
     pub metric: String,
