@@ -53,11 +53,15 @@ pub struct WhiteNoise {
     pub amplitude_m: f64,
     /// How the values are spread about the mean.
     pub distribution: Distribution,
+    /// Values are rounded to whole multiples of this, so that sand lies in whole slabs; 0 leaves
+    /// them as they are.
+    #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "m"))]
+    pub step_m: f64,
 }
 
 impl Default for WhiteNoise {
     fn default() -> Self {
-        Self { mean_m: 0.0, amplitude_m: 1.0, distribution: Distribution::Uniform }
+        Self { mean_m: 0.0, amplitude_m: 1.0, distribution: Distribution::Uniform, step_m: 0.0 }
     }
 }
 
@@ -66,8 +70,31 @@ impl Generator for WhiteNoise {
         let checks = Checks("WhiteNoise");
         checks.elevation("mean_m", self.mean_m)?;
         checks.length("amplitude_m", self.amplitude_m, 0.0)?;
+        checks.length("step_m", self.step_m, 0.0)?;
         let stream = RandomStream::new(seed, "white noise");
-        let value = |node| self.mean_m + self.amplitude_m * self.distribution.draw(&stream, node);
+        let value = |node| {
+            let value = self.mean_m + self.amplitude_m * self.distribution.draw(&stream, node);
+            match self.step_m > 0.0 {
+                true => (value / self.step_m).round() * self.step_m,
+                false => value,
+            }
+        };
         Ok((0..lattice.node_count()).into_par_iter().map(value).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use landform_graph::{Boundary, Connectivity};
+
+    #[test]
+    fn values_are_whole_steps_when_asked() {
+        let lattice = Lattice::plane([32, 32], 1.0, Connectivity::Four, [Boundary::Open; 2]);
+        let noise =
+            WhiteNoise { mean_m: 6.0, amplitude_m: 6.0, step_m: 3.0, ..Default::default() };
+        let values = noise.generate(&lattice.unwrap(), 1).unwrap();
+        assert!(values.iter().all(|value| [0.0, 3.0, 6.0, 9.0, 12.0].contains(value)));
+        assert!((values.iter().sum::<f64>() / 1024.0 - 6.0).abs() < 0.5);
     }
 }
