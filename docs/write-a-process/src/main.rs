@@ -8,7 +8,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     landform::Program::new()
         .register(|registry| {
-            registry.process::<scree::Scree>().metric::<scree::SteepestSlope>();
+            registry.process::<scree::Scree>().metric::<scree::SteepGround>();
             registry.process::<rain::Rain>();
         })
         .run()

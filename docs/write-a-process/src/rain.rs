@@ -1,6 +1,7 @@
 //! Rain: drops that run downhill, as agents of one group.
 
 use landform::prelude::*;
+use landform::sim::random::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,16 +10,16 @@ use serde::{Deserialize, Serialize};
 pub struct Drops;
 
 impl AgentGroup for Drops {
-    /// Steps that the drop has run.
-    type State = u32;
-    /// Steps of the drop that ran furthest.
-    type Globals = u32;
+    /// Nothing: a drop knows only where it is, which is its node.
+    type State = ();
+    /// Drops that came to an end so far.
+    type Globals = u64;
     const NAME: &'static str = "drops";
 }
 // ANCHOR_END: group
 
 // ANCHOR: field
-/// How many drops have left a node for a lower one.
+/// How many drops have run over a node.
 pub struct Tracks;
 
 impl NodeField for Tracks {
@@ -29,7 +30,7 @@ impl NodeField for Tracks {
 }
 // ANCHOR_END: field
 
-/// Drops of rain that run down the steepest edge and leave tracks, until they reach a hollow.
+/// Drops of rain that run downhill and leave tracks until they reach a hollow or a border.
 #[derive(Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Rain {
@@ -61,23 +62,29 @@ impl Plugin for Rain {
 // ANCHOR_END: process
 
 // ANCHOR: run
-/// Every drop runs one step; where the next node is taken it waits.
+/// Every drop runs one step, the likelier the steeper; where the next node is taken it waits.
 fn run(
+    clock: Res<Clock>,
     space: Res<Space>,
     bed: Field<Bed>,
     mut tracks: FieldMut<Tracks>,
     mut drops: Agents<Drops>,
 ) {
+    let random = RandomStream::new(clock.seed, "ways of drops");
     let (bed, tracks) = (bed.values(), tracks.values_mut());
     drops.view().visit(|drops, node| {
-        let fall = |edge: &landform::graph::Edge| (bed[node] - bed[edge.node]) / edge.distance;
-        let steepest = space.neighbours(node).max_by(|a, b| fall(a).total_cmp(&fall(b)));
-        match steepest.filter(|edge| fall(edge) > 0.0) {
-            Some(edge) if drops.move_to(node, edge.node) => tracks[node] += 1,
-            Some(_) => {}
-            None => {
-                drops.deregister(node);
-            }
+        let ways = space.neighbours(node).enumerate().map(|(number, edge)| {
+            let [word, ..] = random.block(clock.tick, node, number as u32);
+            let fall = (bed[node] - bed[edge.node]) / edge.distance;
+            (fall * unit(word), edge.node)
+        });
+        let way = ways.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|way| way.0 > 0.0);
+        let Some((_, below)) = way else {
+            *drops.globals_mut() += u64::from(drops.deregister(node));
+            return;
+        };
+        if drops.move_to(node, below) {
+            tracks[node] += 1;
         }
     });
 }
@@ -95,7 +102,7 @@ fn fall(
     let mut drops = drops.view();
     for drop in 0..settings.drops {
         let [word, ..] = random.block(clock.tick, drop, 0);
-        drops.register(word as usize % space.node_count(), 0);
+        drops.register(word as usize % space.node_count(), ());
     }
 }
 // ANCHOR_END: fall

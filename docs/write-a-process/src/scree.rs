@@ -68,13 +68,23 @@ fn crumble(lattice: &Lattice, steepest: f64, rate: f64, before: &[f64], after: &
 // ANCHOR_END: kernel
 
 // ANCHOR: metric
-/// The steepest edge of the bed.
-#[derive(Clone, Default, Serialize, Deserialize, JsonSchema)]
+/// Share of the nodes with an edge that falls too steeply.
+#[derive(Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct SteepestSlope {}
+pub struct SteepGround {
+    /// Slope above which an edge counts.
+    #[schemars(range(min = 1.0, max = 89.0), extend("x-unit" = "degrees"))]
+    pub steeper_than_deg: f64,
+}
 
-impl Metric for SteepestSlope {
-    const NAME: &'static str = "SteepestSlope";
+impl Default for SteepGround {
+    fn default() -> Self {
+        Self { steeper_than_deg: 35.0 }
+    }
+}
+
+impl Metric for SteepGround {
+    const NAME: &'static str = "SteepGround";
 
     fn fields(&self) -> Vec<String> {
         vec!["bed".to_owned()]
@@ -83,12 +93,13 @@ impl Metric for SteepestSlope {
     fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let Ok(bed) = snapshot.field("bed") else { return Ok(Vec::new()) };
         let lattice = snapshot.lattice();
-        let slopes = (0..lattice.node_count()).flat_map(|node| {
+        let limit = self.steeper_than_deg.to_radians().tan();
+        let is_steep = |&node: &usize| {
             let fall = |edge: Edge| (bed[node] - bed[edge.node]) / edge.distance;
-            lattice.neighbours(node).map(fall).collect::<Vec<_>>()
-        });
-        let steepest = slopes.fold(0.0, f64::max).atan().to_degrees();
-        Ok(vec![("steepest_slope_deg".to_owned(), steepest)])
+            lattice.neighbours(node).any(|edge| fall(edge) > limit)
+        };
+        let steep = (0..bed.len()).filter(is_steep).count();
+        Ok(vec![("steep_percent".to_owned(), 100.0 * steep as f64 / bed.len() as f64)])
     }
 }
 // ANCHOR_END: metric
