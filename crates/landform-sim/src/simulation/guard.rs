@@ -4,7 +4,7 @@ use bevy_ecs::world::World;
 use rayon::prelude::*;
 
 use super::RunError;
-use super::stage::Turn;
+use super::turn::Turn;
 use crate::clock::Clock;
 use crate::fault::Fault;
 use crate::field::FieldEntry;

@@ -8,6 +8,7 @@ mod progress;
 mod report;
 mod run;
 mod stage;
+mod turn;
 
 pub(crate) use build::check;
 pub use build::{Limits, Simulation};

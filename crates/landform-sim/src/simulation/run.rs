@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use super::stage::{self, Turn};
+use super::stage;
+use super::turn::Turn;
 use super::{Progress, ProgressHook, Report, RunError, Simulation, StageReport};
 use crate::clock::Clock;
 use crate::output::{Moment, OutputFile};

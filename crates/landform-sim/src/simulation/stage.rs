@@ -3,21 +3,11 @@
 use bevy_app::App;
 use bevy_ecs::schedule::{LogLevel, Schedule, ScheduleBuildSettings, ScheduleLabel, Schedules};
 
+use super::turn::Turn;
 use super::{RunError, guard};
 use crate::clock::Clock;
-use crate::field::FieldEntry;
-use crate::ledger::Budget;
-use crate::process::{Access, Begin, GroupEntry, Iterate};
+use crate::process::{Access, Begin, Iterate};
 use crate::registry::{AnyProcess, Chosen};
-
-/// One process of a stage.
-pub(super) struct Turn {
-    pub(super) name: &'static str,
-    pub(super) written: Vec<FieldEntry>,
-    pub(super) budgets: Vec<Budget>,
-    groups: Vec<GroupEntry>,
-    iterate: Schedule,
-}
 
 /// Adds the processes of a stage to the app and runs their [`Begin`] systems.
 pub(super) fn begin(

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform_graph::Lattice;
-use landform_io::{Raster, read_raster};
+use landform_io::Raster;
 use landform_sim::domain::{Border, Domain, DomainSource, Neighbourhood};
 use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
@@ -139,9 +139,4 @@ impl RasterDomain {
             (_, Ok(spacing_m)) => Ok(spacing_m),
         }
     }
-}
-
-/// Reads a raster within the limits of the program.
-pub(crate) fn open(path: &Path) -> Result<Raster, landform_io::IoError> {
-    read_raster(path)
 }

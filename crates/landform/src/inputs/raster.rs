@@ -2,13 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use landform_io::Raster;
+use landform_io::{Raster, read_raster};
 use landform_sim::initial::{InitialCondition, InitialContext};
 use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use super::domain::open;
 
 /// The values of the raster that the domain was made from (domain `Raster`), scaled and raised.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -80,7 +78,7 @@ impl InitialCondition for RasterFile {
 
 /// Reads a raster for the parameter `parameter`.
 pub(super) fn read(path: &Path, parameter: &str) -> Result<Raster, Problem> {
-    open(path).map_err(|error| Problem::new(parameter, error.to_string(), ""))
+    read_raster(path).map_err(|error| Problem::new(parameter, error.to_string(), ""))
 }
 
 /// Every `step`-th column and row of a raster, from the north-west corner.

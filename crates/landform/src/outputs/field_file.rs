@@ -5,13 +5,14 @@ use std::path::{Component, Path, PathBuf};
 use landform_graph::Lattice;
 use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
 use landform_sim::field::FieldEntry;
-use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::output::{Output, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::When;
+use super::due::{Due, DueFile};
 
 /// A field as a raster: GeoTIFF (`.tif`), ESRI ASCII (`.asc`), NumPy (`.npy`), 16-bit grey
 /// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it.
@@ -48,27 +49,27 @@ impl Output for FieldFile {
     }
 
     fn open(&self) -> Box<dyn Sink> {
-        Box::new(self.clone())
+        Box::new(Due(self.clone()))
     }
 }
 
-impl Sink for FieldFile {
-    fn observe(
-        &mut self,
-        moment: Moment,
+impl DueFile for FieldFile {
+    const KIND: &'static str = "raster";
+
+    fn order(&self) -> (&PathBuf, &str, When) {
+        (&self.file, &self.field, self.when)
+    }
+
+    fn write(
+        &self,
+        path: &Path,
+        values: Vec<f64>,
+        entry: &FieldEntry,
         snapshot: &Snapshot<'_>,
-        folder: &Path,
-    ) -> Result<Vec<OutputFile>, Problem> {
-        if !self.when.is_due(moment, snapshot) {
-            return Ok(Vec::new());
-        }
-        let (values, entry) = values(snapshot, &self.field)?;
-        let file = self.when.file_name(&self.file, snapshot);
-        let path = below(folder, &file)?;
+    ) -> Result<(), Problem> {
         let raster = raster_of(snapshot, values);
         write_raster(path, &raster, &metadata(snapshot, entry), IfExists::Replace)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))?;
-        Ok(vec![OutputFile { file, kind: "raster".to_owned() }])
+            .map_err(|error| Problem::new("file", error.to_string(), ""))
     }
 }
 

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 use landform_graph::Lattice;
 use landform_io::mesh::{self, height_mesh};
 use landform_io::{IfExists, IoError, Metadata, Raster};
-use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::field::FieldEntry;
+use landform_sim::output::{Output, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::ColourMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::due::{Due, DueFile};
 use super::{When, field_file};
 
 /// A field of heights as a triangle mesh with colours: glTF (`.glb`), `.obj`, `.ply`, `.stl`.
@@ -64,29 +66,29 @@ impl Output for Mesh {
     }
 
     fn open(&self) -> Box<dyn Sink> {
-        Box::new(self.clone())
+        Box::new(Due(self.clone()))
     }
 }
 
-impl Sink for Mesh {
-    fn observe(
-        &mut self,
-        moment: Moment,
+impl DueFile for Mesh {
+    const KIND: &'static str = "mesh";
+
+    fn order(&self) -> (&PathBuf, &str, When) {
+        (&self.file, &self.field, self.when)
+    }
+
+    fn write(
+        &self,
+        path: &Path,
+        values: Vec<f64>,
+        entry: &FieldEntry,
         snapshot: &Snapshot<'_>,
-        folder: &Path,
-    ) -> Result<Vec<OutputFile>, Problem> {
-        if !self.when.is_due(moment, snapshot) {
-            return Ok(Vec::new());
-        }
+    ) -> Result<(), Problem> {
         let colours = colour_map(&self.colours)?;
-        let (values, entry) = field_file::values(snapshot, &self.field)?;
-        let file = self.when.file_name(&self.file, snapshot);
-        let path = field_file::below(folder, &file)?;
         let raster = field_file::raster_of(snapshot, values);
         let metadata = field_file::metadata(snapshot, entry);
-        write_mesh(&path, &raster, &metadata, colours, IfExists::Replace)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))?;
-        Ok(vec![OutputFile { file, kind: "mesh".to_owned() }])
+        write_mesh(path, &raster, &metadata, colours, IfExists::Replace)
+            .map_err(|error| Problem::new("file", error.to_string(), ""))
     }
 }
 

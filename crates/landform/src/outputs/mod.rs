@@ -1,6 +1,7 @@
 //! Outputs that scenarios may name: pictures, animations, rasters and meshes.
 
 mod animation;
+mod due;
 mod field_file;
 mod look;
 mod mesh;

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
-use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::field::FieldEntry;
+use landform_sim::output::{Output, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::due::{Due, DueFile};
 use super::look::{Look, picture_text, problem, write_picture};
 use super::{When, field_file};
 
@@ -54,26 +56,26 @@ impl Output for Picture {
     }
 
     fn open(&self) -> Box<dyn Sink> {
-        Box::new(self.clone())
+        Box::new(Due(self.clone()))
     }
 }
 
-impl Sink for Picture {
-    fn observe(
-        &mut self,
-        moment: Moment,
+impl DueFile for Picture {
+    const KIND: &'static str = "picture";
+
+    fn order(&self) -> (&PathBuf, &str, When) {
+        (&self.file, &self.field, self.when)
+    }
+
+    fn write(
+        &self,
+        path: &Path,
+        values: Vec<f64>,
+        entry: &FieldEntry,
         snapshot: &Snapshot<'_>,
-        folder: &Path,
-    ) -> Result<Vec<OutputFile>, Problem> {
-        if !self.when.is_due(moment, snapshot) {
-            return Ok(Vec::new());
-        }
-        let (values, entry) = field_file::values(snapshot, &self.field)?;
+    ) -> Result<(), Problem> {
         let image = self.look.draw(snapshot.lattice(), &values, entry.unit);
-        let file = self.when.file_name(&self.file, snapshot);
-        let path = field_file::below(folder, &file)?;
         let text = picture_text(snapshot, &self.field);
-        write_picture(&image.map_err(|error| problem(&error))?, &path, &text)?;
-        Ok(vec![OutputFile { file, kind: "picture".to_owned() }])
+        write_picture(&image.map_err(|error| problem(&error))?, path, &text)
     }
 }

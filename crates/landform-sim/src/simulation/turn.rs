@@ -1,0 +1,16 @@
+//! A process at work in a stage.
+
+use bevy_ecs::schedule::Schedule;
+
+use crate::field::FieldEntry;
+use crate::ledger::Budget;
+use crate::process::GroupEntry;
+
+/// One process of a stage.
+pub(super) struct Turn {
+    pub(super) name: &'static str,
+    pub(super) written: Vec<FieldEntry>,
+    pub(super) budgets: Vec<Budget>,
+    pub(super) groups: Vec<GroupEntry>,
+    pub(super) iterate: Schedule,
+}

@@ -1,0 +1,134 @@
+//! How a field is drawn: as a map under light, in perspective, as flat colours, as a spectrum.
+
+mod flat;
+mod perspective;
+mod relief;
+mod text;
+
+pub use flat::{Density, Flat};
+pub use perspective::Perspective;
+pub use relief::Relief;
+
+pub(crate) use text::{picture_text, problem, write_picture};
+
+use landform_graph::Lattice;
+use landform_sim::parameters::Problem;
+use landform_view::relief::shaded_relief;
+use landform_view::{ColourMap, Ground, HeightField, Image, MOST_PIXELS, ViewError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a field is drawn.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub enum Look {
+    /// A map of heights under sun and sky, with cast shadows.
+    Relief(Relief),
+    /// A view from a camera.
+    Perspective(Perspective),
+    /// Colours by value, without light.
+    Flat(Flat),
+    /// The spectral density of the field.
+    Spectrum(Density),
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self::Relief(Relief::default())
+    }
+}
+
+/// Thickness of water in metres below which the ground shows through.
+pub(super) const CLEAR_WATER_M: f64 = 10.0;
+
+impl Look {
+    /// Draws a field of `lattice`, whose values are in `unit`.
+    pub(crate) fn draw(
+        &self,
+        lattice: &Lattice,
+        values: &[f64],
+        unit: &str,
+    ) -> Result<Image, ViewError> {
+        let size = [lattice.width(), lattice.height()];
+        let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
+        self.picture(size, lattice.spacing(), periodic, values, unit)
+    }
+
+    fn picture(
+        &self,
+        [width, height]: [usize; 2],
+        spacing_m: f64,
+        periodic: bool,
+        values: &[f64],
+        unit: &str,
+    ) -> Result<Image, ViewError> {
+        let heights = || HeightField::new(width, height, spacing_m, values);
+        match self {
+            Self::Relief(relief) => shaded_relief(&heights()?, &relief.options(periodic)?),
+            Self::Perspective(view) => {
+                landform_view::perspective::render(&heights()?, &view.options()?)
+            }
+            Self::Flat(flat) => flat.draw(values, width, height, unit),
+            Self::Spectrum(density) => density.draw(values, [width, height]),
+        }
+    }
+
+    /// Refuses what cannot be drawn of any field of `lattice`.
+    pub(crate) fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        let nodes = [lattice.width() as f64, lattice.height() as f64];
+        let [width, height] = match self {
+            Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
+            Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
+            Self::Flat(Flat { pixels_per_node, .. })
+            | Self::Spectrum(Density { pixels_per_node, .. }) => {
+                nodes.map(|nodes| nodes * *pixels_per_node as f64)
+            }
+        };
+        let pixels = width * height;
+        if !(1.0..=MOST_PIXELS as f64).contains(&pixels) {
+            let message = format!("the picture would have {width:.0} x {height:.0} pixels");
+            return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
+        }
+        let heights = !matches!(self, Self::Flat(_) | Self::Spectrum(_));
+        if heights && lattice.width().min(lattice.height()) < 2 {
+            let message = format!("{} x {} nodes span no surface", nodes[0], nodes[1]);
+            return Err(Problem::new("look", message, "at least 2 x 2 nodes, or the look Flat"));
+        }
+        self.trial().map(|_| ()).map_err(|error| Problem::new("look", error.to_string(), ""))
+    }
+
+    /// A tiny picture with all the settings, for what only drawing finds wrong.
+    fn trial(&self) -> Result<Image, ViewError> {
+        const SIDE: usize = 4;
+        let mut small = self.clone();
+        if let Self::Perspective(view) = &mut small {
+            view.size = (SIDE, SIDE);
+        }
+        small.picture([SIDE, SIDE], 1.0, false, &[0.0; SIDE * SIDE], "")
+    }
+
+    /// The values of the first and the last colour, when they are given.
+    pub(crate) fn range(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Relief(relief) => relief.range_m,
+            Self::Perspective(view) => view.range_m,
+            Self::Flat(flat) => flat.range,
+            Self::Spectrum(_) => None,
+        }
+    }
+
+    /// The same look with colours over a given range.
+    pub(crate) fn with_range(mut self, range: (f64, f64)) -> Self {
+        match &mut self {
+            Self::Relief(relief) => relief.range_m = Some(range),
+            Self::Perspective(view) => view.range_m = Some(range),
+            Self::Flat(flat) => flat.range = Some(range),
+            Self::Spectrum(_) => {}
+        }
+        self
+    }
+}
+
+pub(super) fn ground(colours: &str, range_m: Option<(f64, f64)>) -> Result<Ground, ViewError> {
+    let range_m = range_m.map(|(low, high)| [low, high]);
+    Ok(Ground { range_m, ..Ground::new(ColourMap::named(colours)?) })
+}
