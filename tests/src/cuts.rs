@@ -1,0 +1,42 @@
+//! Any scenario, made small enough for a test.
+
+use std::fs;
+use std::path::Path;
+
+use landform::sim::text::{Tree, locate};
+
+/// Most columns and rows that are left.
+const MOST_NODES: usize = 64;
+
+/// Most iterations that are left of a stage.
+const MOST_ITERATIONS: usize = 4;
+
+/// The `--set` arguments that make a scenario small: its grid, its stages and its perspective
+/// pictures. A raster domain gets `raster`, a file of a test, instead of its own.
+pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
+    let text = fs::read_to_string(scenario).expect("the scenario can be read");
+    let tree = Tree::parse(&text);
+    let value = |path: &str| locate(&tree, path).map(|span| span.of(&text));
+    let mut cuts = Vec::new();
+    let domain = value("domain").unwrap_or_default();
+    if domain.starts_with("Raster") {
+        cuts.push(format!("domain.path={:?}", raster.display().to_string()));
+        cuts.push("domain.every=1".to_owned());
+    } else {
+        let [width, height] = [0, 1].map(|axis| {
+            let nodes = value(&format!("domain.size[{axis}]")).and_then(|text| text.parse().ok());
+            nodes.unwrap_or(MOST_NODES).min(MOST_NODES)
+        });
+        cuts.push(format!("domain.size=({width}, {height})"));
+    }
+    for stage in (0..).take_while(|stage| value(&format!("stages[{stage}]")).is_some()) {
+        cuts.push(format!("stages[{stage}].stop=Iterations({MOST_ITERATIONS})"));
+    }
+    for output in (0..).take_while(|output| value(&format!("outputs[{output}]")).is_some()) {
+        let look = format!("outputs[{output}].look");
+        if value(&look).is_some_and(|look| look.starts_with("Perspective")) {
+            cuts.push(format!("{look}.size=(96, 60)"));
+        }
+    }
+    cuts.into_iter().flat_map(|cut| ["--set".to_owned(), cut]).collect()
+}

@@ -1,0 +1,25 @@
+//! Synthetic rasters, for scenarios that start from one.
+
+use std::path::Path;
+
+use landform::io::{IfExists, Metadata, Raster, write_raster};
+
+/// Hills of 100 m on a slope of 2 degrees, on cells of 30 m: every height is finite, no two
+/// rows are alike and nothing is periodic.
+pub fn hills(width: usize, height: usize) -> Raster {
+    let elevation = |cell: usize| {
+        let (column, row) = ((cell % width) as f64, (cell / width) as f64);
+        300.0
+            + 1.05 * column
+            + 50.0 * (column / 7.0).sin()
+            + 50.0 * (row / 5.0 + 0.1 * column).cos()
+    };
+    Raster::local(width, height, 30.0, (0..width * height).map(elevation).collect())
+}
+
+/// Writes [`hills`] into a file whose extension names the format.
+pub fn write_hills(path: &Path, width: usize, height: usize) {
+    let metadata = Metadata { unit: Some("m".to_owned()), ..Metadata::default() };
+    write_raster(path, &hills(width, height), &metadata, IfExists::Replace)
+        .expect("a raster can be written");
+}

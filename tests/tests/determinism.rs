@@ -1,0 +1,143 @@
+//! Same bits: a scenario and a seed give the same fields on any number of threads, today and
+//! tomorrow.
+//!
+//! [`GOLDEN`] holds a hash of the final fields of a small run of every process. It may be minted
+//! anew only when a process is meant to give other results, and the commit that does it says
+//! why; a faster kernel is no reason. The hashes were made on x86-64 Linux. Processes call
+//! tangents and logarithms of the system's library, so another system may round differently.
+
+use std::collections::BTreeSet;
+
+use landform_tests::{Run, bits_of, fnv};
+
+/// A small run of a process.
+struct Case {
+    /// Process at work, with its parameters.
+    process: &'static str,
+    /// How its fields are filled.
+    initial: &'static [&'static str],
+    /// Connectivity and boundary of the domain.
+    domain: (&'static str, &'static str),
+    /// Hash of all fields and of the series.
+    golden: u64,
+}
+
+const SAND: &str = "(field: \"sand\", from: WhiteNoise(mean_m: 12.0, amplitude_m: 12.0))";
+const HILLS: &str = "(field: \"bed\", from: SmoothNoise(standard_deviation_m: 8.0))";
+const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
+const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
+const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
+const TRAY: (&str, &str) = ("Four", "(Open, Open)");
+
+const fn case(
+    process: &'static str,
+    initial: &'static [&'static str],
+    domain: (&'static str, &'static str),
+    golden: u64,
+) -> Case {
+    Case { process, initial, domain, golden }
+}
+
+const GOLDEN: &[Case] = &[
+    case("Dunes(slab_m: 3.0)", &[SAND, HILLS], TORUS, 0x17dd_e7e0_7929_2bce),
+    case("Dunes(slab_m: 3.0)", &[SAND, HILLS], ISLAND, 0xf236_ef2e_473f_c007),
+    case("Dunes(slab_m: 3.0, feed_slabs: 7.5)", &[SAND, HILLS], BELT, 0xea01_7d23_c89d_8912),
+    case(
+        "Dunes(slab_m: 1.0, refinement: (coarse_ticks: 2, phases: 2))",
+        &[SAND],
+        TORUS,
+        0xca3b_865e_f831_a719,
+    ),
+    case("Dunes(slab_m: 3.0, shelter: Protection())", &[SAND, HILLS], TORUS, 0x2989_5dac_522f_cb78),
+    case(
+        "Dunes(slab_m: 3.0, shelter: Protection())",
+        &[SAND, HILLS],
+        ISLAND,
+        0x53e2_33ac_d60d_2dce,
+    ),
+    case("Smoothing()", &[SAND, HILLS], TORUS, 0xe6cf_7890_9ecf_a18c),
+    case("Smoothing()", &[SAND, HILLS], ISLAND, 0xdaa2_23b5_567a_9555),
+    case("SandLike()", &[SAND], TORUS, 0xb63f_87de_60c5_daa4),
+    case("SandLike()", &[SAND], ISLAND, 0x739b_63a3_f864_88c9),
+    case("CorrosionLike()", &[HILLS], TORUS, 0x07ae_c067_db3e_bdd2),
+    case("CorrosionLike()", &[HILLS], ISLAND, 0x9d43_6ba6_df1b_bfec),
+    case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
+];
+
+impl Case {
+    /// Name of the process.
+    fn name(&self) -> &'static str {
+        self.process.split('(').next().unwrap_or_default()
+    }
+
+    /// A scenario on a grid that is neither square nor a multiple of the usual chunks.
+    fn scenario(&self, seed: u64) -> String {
+        let (connectivity, boundary) = self.domain;
+        let process = self.process;
+        let initial = self.initial.join(", ");
+        format!(
+            r#"(
+                title: "same bits",
+                seed: {seed},
+                domain: Grid(size: (150, 84), connectivity: {connectivity}, boundary: {boundary}),
+                initial: [{initial}],
+                stages: [(processes: [{process}], stop: Iterations(6))],
+                metrics: [FieldStatistic(field: "{}", statistic: StandardDeviation)],
+            )"#,
+            self.measured()
+        )
+    }
+
+    /// A field that the process has.
+    fn measured(&self) -> &'static str {
+        match self.name() {
+            "Sandpile" => "grains",
+            _ => "surface",
+        }
+    }
+}
+
+/// A hash of the names and bits of all final fields and of the whole series.
+fn hash(text: &str, threads: usize) -> u64 {
+    let run = Run::of(text, landform::registry(), threads);
+    let fields = &run.fields;
+    let parts = fields.iter().flat_map(|(name, values)| {
+        name.bytes().chain(bits_of(values).to_le_bytes()).collect::<Vec<_>>()
+    });
+    fnv(parts.chain(run.series.to_csv().into_bytes()))
+}
+
+#[test]
+fn every_process_gives_the_same_bits_on_any_number_of_threads() {
+    for case in GOLDEN {
+        let [one, two, eight] = [1, 2, 8].map(|threads| hash(&case.scenario(5), threads));
+        assert_eq!((one, one), (two, eight), "{} on {:?}", case.process, case.domain);
+    }
+}
+
+#[test]
+fn the_bits_are_those_that_were_minted() {
+    let mut changed = String::new();
+    for case in GOLDEN {
+        let found = hash(&case.scenario(5), 2);
+        if found != case.golden {
+            changed += &format!("{} on {:?}: {found:#018x}\n", case.process, case.domain);
+        }
+    }
+    assert!(changed.is_empty(), "other bits than before:\n{changed}");
+}
+
+#[test]
+fn every_process_has_golden_bits() {
+    let known: BTreeSet<_> = GOLDEN.iter().map(Case::name).collect();
+    let registered: BTreeSet<_> = landform::registry().processes.names().into_iter().collect();
+    assert_eq!(known, registered, "add a case to GOLDEN for each process");
+}
+
+#[test]
+fn another_seed_gives_other_bits() {
+    for case in GOLDEN {
+        let [first, second] = [5, 6].map(|seed| hash(&case.scenario(seed), 2));
+        assert_ne!(first, second, "{}", case.process);
+    }
+}
