@@ -61,9 +61,9 @@ fn describe_fields(
 /// The structs that a parameter may hold: of variants, of an option, of a list.
 fn inner_structs(property: &Value) -> Vec<(String, &Value)> {
     let mut inner: Vec<(String, &Value)> = alternatives(property)
-        .filter_map(|alternative| match variant(alternative) {
-            Some((name, content)) => Some((name.clone(), content)),
-            None => Some((String::new(), alternative)),
+        .map(|alternative| match variant(alternative) {
+            Some((name, content)) => (name.clone(), content),
+            None => (String::new(), alternative),
         })
         .collect();
     inner.push((String::new(), property));

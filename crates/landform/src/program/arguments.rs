@@ -14,9 +14,9 @@ pub(crate) struct Arguments {
 
 const EXAMPLES: &str = "Examples:
   landform run scenarios/gallery/dunes.ron
-  landform run scenarios/gallery/dunes.ron -o out/windy --seed 7 --set stages[0].processes.Werner.wind_strength_m=200
+  landform run scenarios/gallery/dunes.ron -o out/windy --seed 7 --set stages[0].processes.Dunes.wind_strength_m=200
   landform run scenarios/gallery/dunes_on_dem.ron --set domain.path=my_dem.tif
-  landform describe Werner
+  landform describe Dunes
   landform export out/dunes --field surface --to dunes.tif
   landform view out/dunes -o dunes.png --look perspective --bearing 120";
 
@@ -78,7 +78,7 @@ pub(crate) struct RunArguments {
     /// Number of threads; all cores without it. The results are the same for any number
     #[arg(long)]
     pub threads: Option<usize>,
-    /// Replace a value of the scenario, as often as needed: `stages[0].processes.Werner.slab_m=2.5`
+    /// Replace a value of the scenario, as often as needed: `stages[0].processes.Dunes.slab_m=2.5`
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Write into an existing folder; files of the same names are replaced

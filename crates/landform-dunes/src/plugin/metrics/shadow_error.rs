@@ -14,7 +14,7 @@ use crate::dunes::{
 
 /// Share of nodes where shelter by protection disagrees with geometric visibility, with and
 /// without the peaks and troughs of the dunes (thesis, table 4.1b).
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProtectionError {
     /// The wind; the test of visibility looks along each of its directions.
@@ -25,17 +25,6 @@ pub struct ProtectionError {
     pub visibility: VisibilitySettings,
     /// What is left when peaks and troughs are left out.
     pub flanks: FlankSettings,
-}
-
-impl Default for ProtectionError {
-    fn default() -> Self {
-        Self {
-            wind: Wind::default(),
-            protection: ProtectionSettings::default(),
-            visibility: VisibilitySettings::default(),
-            flanks: FlankSettings::default(),
-        }
-    }
 }
 
 impl Metric for ProtectionError {
