@@ -21,7 +21,10 @@ pub struct RasterFile {
 }
 
 const READABLE: &str = ".tif, .tiff, .asc, .npy";
-const WRITABLE: &str = ".tif, .tiff, .asc, .npy, .png, .raw";
+#[cfg(not(feature = "exr"))]
+const WRITABLE: &str = ".tif, .tiff, .asc, .npy, .png, .raw (.exr with the feature `exr`)";
+#[cfg(feature = "exr")]
+const WRITABLE: &str = ".tif, .tiff, .asc, .npy, .png, .raw, .exr";
 
 /// Reads a raster within the default [`ReadLimits`]: GeoTIFF and NPY are known by their first
 /// bytes, ESRI ASCII by its extension or its first word.
@@ -81,6 +84,8 @@ pub fn write_raster(
         "npy" => npy::write(path, raster, metadata, SampleType::F64, if_exists),
         "png" => png16::write(path, raster, metadata, None, if_exists),
         "raw" => raw::write(path, raster, metadata, if_exists),
+        #[cfg(feature = "exr")]
+        "exr" => crate::open_exr::write(path, raster, metadata, if_exists),
         extension => Err(unknown(path, extension, WRITABLE)),
     }
 }

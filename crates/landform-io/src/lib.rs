@@ -40,6 +40,8 @@ mod limits;
 pub mod mesh;
 pub mod metadata;
 pub mod npy;
+#[cfg(feature = "exr")]
+pub mod open_exr;
 pub mod png16;
 mod raster;
 pub mod raw;

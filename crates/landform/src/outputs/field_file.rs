@@ -33,6 +33,12 @@ impl Default for FieldFile {
     }
 }
 
+/// Extensions of the raster formats that can be written.
+#[cfg(not(feature = "exr"))]
+const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw"];
+#[cfg(feature = "exr")]
+const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw", "exr"];
+
 impl Output for FieldFile {
     const NAME: &'static str = "FieldFile";
 
@@ -45,7 +51,7 @@ impl Output for FieldFile {
     }
 
     fn validate(&self, _lattice: &Lattice) -> Result<(), Problem> {
-        check_file(&self.file, &["tif", "tiff", "asc", "npy", "png", "raw"])
+        check_file(&self.file, EXTENSIONS)
     }
 
     fn open(&self) -> Box<dyn Sink> {

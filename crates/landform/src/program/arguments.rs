@@ -43,7 +43,7 @@ pub(crate) enum Command {
     /// Write a field of a finished run as a raster or a mesh
     #[command(
         after_help = "The extension of FILE chooses the format: .npy .tif .asc .png (16-bit \
-        grey) .raw (32-bit floats), .obj .ply .glb (meshes)\n\nExample:\n  \
+        grey) .raw (32-bit floats), .exr (when built with the feature exr), .obj .ply .glb .stl (meshes)\n\nExample:\n  \
         landform export out/dunes --field surface --to dunes.glb"
     )]
     Export(ExportArguments),
