@@ -3,13 +3,13 @@
 
 use landform_analysis::{RadialSpectrum, SpectralFit, Spectrum};
 use landform_graph::{Boundary, Connectivity, Lattice};
-use landform_synth::{AmplitudeLaw, InitialCondition, SpectralFbm, WhiteNoise};
+use landform_synth::{AmplitudeLaw, Generator, SpectralFbm, WhiteNoise};
 
 fn lattice(side: usize) -> Lattice {
     Lattice::plane([side, side], 1.0, Connectivity::Eight, [Boundary::Periodic; 2]).unwrap()
 }
 
-fn spectrum(lattice: &Lattice, surface: &dyn InitialCondition, seed: u64) -> Spectrum {
+fn spectrum(lattice: &Lattice, surface: &dyn Generator, seed: u64) -> Spectrum {
     Spectrum::new(lattice, &surface.generate(lattice, seed).unwrap()).unwrap()
 }
 

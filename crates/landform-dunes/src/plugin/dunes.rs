@@ -212,9 +212,9 @@ fn blow(
 ) {
     let DuneState { engine, shelter } = &mut *state;
     let share = settings.refinement.map_or(1.0, |phases| phases.slab_share(clock.iteration));
-    let tick = engine.set_slab_m(settings.slab_m * share).and_then(|()| {
-        engine.tick(bed.values(), sand.values_mut(), clock.tick, shelter.as_dyn())
-    });
+    let tick = engine
+        .set_slab_m(settings.slab_m * share)
+        .and_then(|()| engine.tick(bed.values(), sand.values_mut(), clock.tick, shelter.as_dyn()));
     match tick {
         Ok(tick) => {
             let slab_m3 = engine.slab_m() * space.spacing().powi(2);

@@ -174,7 +174,12 @@ impl Process for Sandpile {
 
     fn declare(&self, uses: &mut Declaration) {
         uses.writes::<Grains>()
-            .conserves(Budget { account: "grains", unit: "1", tolerance: 0.0, measure: count_grains })
+            .conserves(Budget {
+                account: "grains",
+                unit: "1",
+                tolerance: 0.0,
+                measure: count_grains,
+            })
             .scratch(16);
     }
 

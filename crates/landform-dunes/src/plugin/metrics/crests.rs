@@ -7,7 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{measured, refusal, surface};
-use crate::dunes::{correlation_spacing_m, crest_ends_per_m, crest_orientation, crossing_spacing_m};
+use crate::dunes::{
+    correlation_spacing_m, crest_ends_per_m, crest_orientation, crossing_spacing_m,
+};
 
 /// Crests: their spacing along the wind by up-crossings of the mean and by autocorrelation, their
 /// direction and how much they agree, and the number of their ends a kilometre of crest.
