@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
-use landform_sim::simulation::Limits;
+use landform_sim::simulation::{Limits, Progress};
 use serde::Serialize;
 
 use super::arguments::ReproduceArguments;
-use super::{Failure, Outcome, folder, interrupt, memory};
-use crate::reproduce::{Figure, FigureReport, measure};
+use super::{Failure, Outcome, folder, interrupt, memory, talk};
+use crate::reproduce::{Figure, FigureReport, check, measure};
 
 /// What `report.json` holds.
 #[derive(Serialize)]
@@ -25,36 +25,36 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
     let mut figures = Vec::new();
     for name in &arguments.figures {
         let path = find(name).map_err(Failure::Refused)?;
-        let figure = read(&path).map_err(Failure::Refused)?;
-        figures.push((path, figure));
+        let mut figure = read(&path).map_err(Failure::Refused)?;
+        figure.seeds = arguments.seeds.unwrap_or(figure.seeds);
+        let base = path.parent().unwrap_or(Path::new("")).to_owned();
+        check(&figure, &base, registry).map_err(|why| {
+            Failure::Refused(format!("{}: {}", path.display(), why.trim_start_matches("error: ")))
+        })?;
+        figures.push((base, figure));
     }
     let folder = folder::make(arguments.output.as_deref(), "reproduction", arguments.force)
         .map_err(Failure::Refused)?;
     interrupt::watch();
     let mut reports = Vec::new();
-    for (path, mut figure) in figures {
-        figure.seeds = arguments.seeds.unwrap_or(figure.seeds);
-        let base = path.parent().unwrap_or(Path::new("")).to_owned();
-        let mut tell = |what: &str| {
-            eprintln!("{}: {what}", figure.id);
-            match interrupt::asked() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
+    for (base, figure) in figures {
+        let mut tell = |what: &str| talk::tell(&format!("{}: {what}", figure.id));
+        let mut hook = |_: &Progress<'_>| match interrupt::asked() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
         };
         let limits = Limits { memory_bytes };
-        let report = measure(&figure, &base, &folder, registry, limits, &mut tell);
+        let report = measure(&figure, &base, &folder, registry, limits, &mut tell, &mut hook);
         let report = report.map_err(|message| match interrupt::asked() {
             true => Failure::Interrupted(message),
             false => Failure::Failed(message),
         })?;
-        print!("{}", table(&report));
+        talk::say(&table(&report))?;
         reports.push(report);
     }
     let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: reports };
     folder::write_json(&folder.join("report.json"), &reproduction).map_err(Failure::Failed)?;
-    println!("report {}", folder.join("report.json").display());
-    Ok(())
+    talk::say(&format!("report {}\n", folder.join("report.json").display()))
 }
 
 /// The target file of a figure: a path, or the name of a file below `scenarios/thesis`.

@@ -15,6 +15,11 @@ pub(super) fn say(text: &str) -> Outcome {
     }
 }
 
+/// Writes what is going on.
+pub(super) fn tell(message: &str) {
+    let _ = writeln!(stderr(), "{message}");
+}
+
 /// Writes what went wrong. Where that is impossible the exit status has to do.
 pub(super) fn complain(message: &str) {
     let start = if message.starts_with("error") { "" } else { "error: " };

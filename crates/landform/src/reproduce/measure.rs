@@ -1,13 +1,12 @@
 //! Running the scenarios of a figure and comparing their numbers with the thesis'.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
-use landform_sim::simulation::{Limits, Progress, Report, Simulation};
+use landform_sim::simulation::{Limits, ProgressHook, Report, Simulation};
 use serde::Serialize;
 
 use super::{Figure, Quantity, Source, Target};
@@ -61,7 +60,7 @@ pub struct TargetReport {
 }
 
 /// Name under which a target finds the metrics of the state before the first iteration.
-const INITIAL: &str = "initial";
+pub(super) const INITIAL: &str = "initial";
 
 /// Metrics by stage of one run.
 type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
@@ -69,7 +68,7 @@ type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
 /// Runs the scenarios of `figure` with every seed and compares.
 ///
 /// `base` is the folder of the target file; pictures of the first seed go to
-/// `folder/RUN/`. `tell` hears what is being run.
+/// `folder/RUN/`. `tell` hears what is being run; `hook` follows each run and may end it.
 ///
 /// # Errors
 /// A message: a scenario that is refused or fails, or a metric that it does not have.
@@ -79,19 +78,18 @@ pub fn measure(
     folder: &Path,
     registry: &Arc<Registry>,
     limits: Limits,
-    tell: &mut dyn FnMut(&str) -> ControlFlow<()>,
+    tell: &mut dyn FnMut(&str),
+    hook: &mut dyn ProgressHook,
 ) -> Result<FigureReport, String> {
     let mut values = vec![Vec::new(); figure.targets.len()];
     let mut pictures = Vec::new();
-    for seed in 1..=figure.seeds.max(1) {
+    for seed in 1..=figure.seeds {
         let mut metrics = BTreeMap::new();
         for run in &figure.runs {
-            if tell(&format!("{}, seed {seed} of {}", run.name, figure.seeds)).is_break() {
-                return Err("interrupted".to_owned());
-            }
+            tell(&format!("{}, seed {seed} of {}", run.name, figure.seeds));
             let path = base.join(&run.scenario);
             let place = (seed == 1).then(|| folder.join(&run.name));
-            let report = run_once(&path, seed, place.as_deref(), registry, limits)?;
+            let report = run_once(&path, seed, place.as_deref(), registry, limits, hook)?;
             pictures.extend(
                 (report.outputs.iter().filter(|output| output.kind == "picture"))
                     .map(|output| Path::new(&run.name).join(&output.file)),
@@ -122,6 +120,7 @@ fn run_once(
     folder: Option<&Path>,
     registry: &Arc<Registry>,
     limits: Limits,
+    hook: &mut dyn ProgressHook,
 ) -> Result<Report, String> {
     let source = ScenarioSource::open(path)?;
     let mut scenario = source.parse(registry)?;
@@ -135,9 +134,8 @@ fn run_once(
     std::fs::create_dir_all(folder)
         .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     let mut report = Report::default();
-    let mut hook = |_: &Progress<'_>| ControlFlow::Continue(());
     simulation
-        .run(folder, &mut hook, &mut report)
+        .run(folder, hook, &mut report)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(report)
 }

@@ -1,0 +1,65 @@
+//! What can be wrong with a target file, found before the first of its runs.
+
+use std::path::{Component, Path};
+use std::sync::Arc;
+
+use landform_sim::registry::Registry;
+use landform_sim::scenario::ScenarioSource;
+
+use super::measure::INITIAL;
+use super::{Figure, Quantity, RunEntry, Source};
+
+/// Checks that every scenario of `figure` can run and that every number is taken from one of
+/// its runs and stages. `base` is the folder of the target file.
+///
+/// # Errors
+/// A message that names the run or the target, what is wrong with it and what there is.
+pub fn check(figure: &Figure, base: &Path, registry: &Arc<Registry>) -> Result<(), String> {
+    let mut stages = Vec::with_capacity(figure.runs.len());
+    for run in &figure.runs {
+        stages.push((run.name.as_str(), check_run(run, base, registry)?));
+    }
+    for target in &figure.targets {
+        let sources: &[&Source] = match &target.value {
+            Quantity::Metric(source) => &[source],
+            Quantity::Ratio(of, to) => &[of, to],
+        };
+        for source in sources {
+            check_source(source, &stages).map_err(|why| format!("{}: {why}", target.name))?;
+        }
+    }
+    match figure.seeds {
+        0 => Err(format!("{}: zero seeds; expected at least one", figure.id)),
+        _ => Ok(()),
+    }
+}
+
+/// Checks a run and returns the names of its stages.
+fn check_run(run: &RunEntry, base: &Path, registry: &Arc<Registry>) -> Result<Vec<String>, String> {
+    let mut parts = Path::new(&run.name).components();
+    if !matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None)) {
+        let name = &run.name;
+        return Err(format!("the run `{name}` cannot name a folder; expected a plain name"));
+    }
+    let source = ScenarioSource::open(&base.join(&run.scenario))?;
+    let scenario = source.parse(registry)?;
+    scenario.check(source.folder()).map_err(|problem| source.render(&problem))?;
+    let mut stages: Vec<String> = scenario.stages.into_iter().map(|stage| stage.name).collect();
+    stages.push(INITIAL.to_owned());
+    Ok(stages)
+}
+
+fn check_source(source: &Source, stages: &[(&str, Vec<String>)]) -> Result<(), String> {
+    let Some((_, stages)) = stages.iter().find(|(name, _)| *name == source.run) else {
+        let names: Vec<&str> = stages.iter().map(|(name, _)| *name).collect();
+        return Err(format!("no run is called `{}`; there are: {}", source.run, names.join(", ")));
+    };
+    match stages.contains(&source.stage) {
+        true => Ok(()),
+        false => {
+            let Source { run, stage, .. } = source;
+            let stages = stages.join(", ");
+            Err(format!("the run `{run}` has no stage `{stage}`; there are: {stages}"))
+        }
+    }
+}
