@@ -31,22 +31,22 @@ fn topplings(effort: Effort, side: usize) {
     let stream = RandomStream::new(1, "grains");
     let grains = if effort == Effort::Quick { 2_000 } else { 20_000 * 64 / side as u64 };
     let [mut from, mut naive_from] = [0; 2];
-    let mut toppled = [0; 2];
+    let [mut toppled, mut naive_toppled] = [0; 2];
     let work = || {
         let sum = (from..from + grains).map(|n| pile.add_at_random(&stream, n).size).sum::<u64>();
         from += grains;
-        toppled[0] += sum;
+        toppled += sum;
         sum as usize
     };
     let naive_work = || {
         let numbers = naive_from..naive_from + grains;
         let sum = numbers.map(|n| naive.add_at_random(&stream, n)).sum::<u64>();
         naive_from += grains;
-        toppled[1] += sum;
+        naive_toppled += sum;
         sum as usize
     };
     let pair = pairs(effort.rounds(10), work, naive_work);
-    assert_eq!(toppled[0], toppled[1], "both piles topple equally often");
+    assert_eq!(toppled, naive_toppled, "both piles topple equally often");
     pair.print(&format!("toppling {side}x{side}"), "naive", "25 ns");
 }
 
