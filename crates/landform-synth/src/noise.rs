@@ -91,8 +91,7 @@ mod tests {
     #[test]
     fn values_are_whole_steps_when_asked() {
         let lattice = Lattice::plane([32, 32], 1.0, Connectivity::Four, [Boundary::Open; 2]);
-        let noise =
-            WhiteNoise { mean_m: 6.0, amplitude_m: 6.0, step_m: 3.0, ..Default::default() };
+        let noise = WhiteNoise { mean_m: 6.0, amplitude_m: 6.0, step_m: 3.0, ..Default::default() };
         let values = noise.generate(&lattice.unwrap(), 1).unwrap();
         assert!(values.iter().all(|value| [0.0, 3.0, 6.0, 9.0, 12.0].contains(value)));
         assert!((values.iter().sum::<f64>() / 1024.0 - 6.0).abs() < 0.5);

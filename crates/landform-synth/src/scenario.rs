@@ -5,8 +5,8 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, GaussianHill, Generator, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
-    SynthError, Uniform, WhiteNoise,
+    Cone, GaussianHill, Generator, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError,
+    Uniform, WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
