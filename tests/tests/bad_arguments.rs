@@ -103,6 +103,18 @@ fn sizes_beyond_the_memory_are_refused_before_it_is_taken() {
     }
 }
 
+#[test]
+fn a_check_takes_no_memory_for_sizes_that_a_run_could_not_have() {
+    let scratch = scratch();
+    let program = Program::within(scratch.folder()).args(["check", "small.ron"]);
+    let shelter = "stages[0].processes.Dunes.shelter=Protection()";
+    let program = program.args(["--set", "domain.size=(60000, 60000)", "--set", shelter]);
+    let program =
+        if cfg!(target_os = "linux") { program.below_memory_kib(1 << 20) } else { program };
+    let message = program.run().refused();
+    assert!(message.contains("3600000000 nodes need about"), "{message}");
+}
+
 /// Runs within 1 GiB of address space where the shell can limit it.
 fn limited(scratch: &Scratch, set: &str) -> Ended {
     let program = Program::within(scratch.folder()).args([

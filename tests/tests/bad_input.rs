@@ -98,6 +98,15 @@ fn fields_that_no_process_has() {
 }
 
 #[test]
+fn metrics_that_cannot_be_measured() {
+    let error = |part: &str| format!("DuneActivity(), ProtectionError({part})");
+    let weight = ["metrics[2]", "sum of weights is 0", "bad.ron:12:"];
+    case("DuneActivity()", &error("wind: (weight: 0.0)"), &weight);
+    let share = ["metrics[2]", "share is 1", "between 0 and 0.5", "bad.ron:12:"];
+    case("DuneActivity()", &error("flanks: (share: 1.0)"), &share);
+}
+
+#[test]
 fn values_of_a_wrong_type() {
     for (from, to, place) in [
         ("seed: 3", "seed: \"three\"", "bad.ron:3:11"),

@@ -79,7 +79,7 @@ fn try_out(text: &str, registry: &Arc<Registry>) {
         return;
     };
     // Outputs are checked with the rest, but nothing is written here.
-    if let Err(problem) = scenario.check(Path::new("")) {
+    if let Err(problem) = scenario.check(Path::new(""), Limits::default()) {
         return check(&source.render(&problem));
     }
     scenario.outputs.clear();

@@ -2,15 +2,17 @@
 //! exist, their scenarios are read, and their commands run.
 //!
 //! Blocks of a page belong together, in their order. A `ron` block that is a whole scenario is
-//! checked; with `file=NAME` after the language it is also put into the folder where the
-//! commands of the page are run. The lines of `sh` blocks that call the program are run there,
-//! with runs cut to a small size. `ignore` after the language leaves a block out.
+//! checked. The lines of `sh` blocks that call the program are run in one folder for the page,
+//! with runs cut to a small size; a scenario file that they name and that is not in the
+//! repository is the whole scenario that stands above. `ignore` after the language leaves a
+//! block out.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform::sim::scenario::ScenarioSource;
+use landform::sim::simulation::Limits;
 use landform_tests::{Block, blocks, files_below, links, repository, shown};
 
 /// The pages: the README and the book.
@@ -23,6 +25,12 @@ fn pages() -> Vec<(PathBuf, String)> {
     files.into_iter().map(|file| (file.clone(), text(&file))).collect()
 }
 
+/// Whether a block is a scenario from its first to its last bracket.
+fn is_scenario(block: &Block) -> bool {
+    let whole = block.text.contains("stages:") && block.text.contains("domain:");
+    says(block, "ron") && !says(block, "ignore") && whole
+}
+
 /// Whether the words after the opening fence of a block have this one among them.
 fn says(block: &Block, word: &str) -> bool {
     block.language.split([' ', ',']).any(|part| part == word)
@@ -30,21 +38,24 @@ fn says(block: &Block, word: &str) -> bool {
 
 #[test]
 fn links_and_pictures_lead_somewhere() {
+    let mut lost = Vec::new();
     for (page, text) in pages() {
         let folder = page.parent().expect("a page lies in a folder");
         for link in links(&text) {
             let target = link.split('#').next().unwrap_or_default();
             let elsewhere = target.contains("://") || target.starts_with("mailto:");
-            if !target.is_empty() && !elsewhere {
-                assert!(folder.join(target).exists(), "{}: {link}", shown(&page));
+            if !target.is_empty() && !elsewhere && !folder.join(target).exists() {
+                lost.push(format!("{}: {link}", shown(&page)));
             }
         }
     }
+    assert!(lost.is_empty(), "links that lead nowhere:\n{}", lost.join("\n"));
 }
 
 #[test]
 fn paths_that_are_named_exist() {
     const FOLDERS: [&str; 5] = ["scenarios/", "docs/", "crates/", "tests/", ".ci/"];
+    let mut lost = Vec::new();
     for (page, text) in pages() {
         for word in
             text.split(|letter: char| letter.is_whitespace() || "`\"'()<>,;".contains(letter))
@@ -52,11 +63,14 @@ fn paths_that_are_named_exist() {
             let word = word.trim_end_matches(['.', ':', '!', '?']);
             let pattern = word.contains(['*', '{', '$']) || word.contains("NAME");
             if FOLDERS.iter().any(|folder| word.starts_with(folder)) && !pattern {
-                let path = word.split(['#', '=']).next().unwrap_or_default();
-                assert!(repository().join(path).exists(), "{} names {word}", shown(&page));
+                let path = word.split(['#', '=', ':']).next().unwrap_or_default();
+                if !repository().join(path).exists() {
+                    lost.push(format!("{}: {word}", shown(&page)));
+                }
             }
         }
     }
+    assert!(lost.is_empty(), "paths that are not there:\n{}", lost.join("\n"));
 }
 
 #[test]
@@ -64,14 +78,15 @@ fn scenarios_in_the_text_are_good() {
     let registry = Arc::new(landform::registry());
     for (page, text) in pages() {
         for block in blocks(&text) {
-            let whole = block.text.contains("stages:") && block.text.contains("domain:");
-            if !says(&block, "ron") || says(&block, "ignore") || !whole {
+            if !is_scenario(&block) {
                 continue;
             }
             let name = format!("{}:{}", shown(&page), block.line);
             let source = ScenarioSource::from_text(&name, &block.text, Path::new(""));
             let checked = source.parse(&registry).and_then(|scenario| {
-                scenario.check(source.folder()).map_err(|problem| source.render(&problem))
+                scenario
+                    .check(source.folder(), Limits::default())
+                    .map_err(|problem| source.render(&problem))
             });
             if let Err(message) = checked {
                 panic!("{message}");
@@ -119,7 +134,7 @@ mod commands {
     }
 
     /// A folder that looks like the repository, for the commands of one page.
-    fn checkout(page: &[Block]) -> Scratch {
+    fn checkout() -> Scratch {
         let scratch = Scratch::new("page");
         std::os::unix::fs::symlink(repository().join("scenarios"), scratch.path("scenarios"))
             .expect("a link");
@@ -128,27 +143,32 @@ mod commands {
         for name in ["dem.tif", "my_dem.tif"] {
             write_hills(&scratch.path(name), 60, 44);
         }
-        for block in page {
-            let file = block.language.split([' ', ',']).find_map(|word| word.strip_prefix("file="));
-            if let Some(file) = file {
-                scratch.write(file, &block.text);
-            }
-        }
         scratch
     }
 
+    /// Puts the scenario above a call into the file that the call names, if there is none.
+    fn provide(scratch: &Scratch, call: &str, above: Option<&Block>) {
+        let named = call.split_whitespace().filter(|word| word.ends_with(".ron"));
+        for file in named.filter(|file| !scratch.path(file).exists()) {
+            let block = above.unwrap_or_else(|| panic!("no scenario stands above `{call}`"));
+            scratch.write(file, &block.text);
+        }
+    }
+
     fn run_all(name: &str, page: &[Block]) -> usize {
-        let scratch = checkout(page);
-        let shells = page.iter().filter(|block| {
-            ["sh", "bash", "console", "shell"].iter().any(|shell| says(block, shell))
-                && !says(block, "ignore")
-        });
+        let scratch = checkout();
         let mut count = 0;
-        for block in shells {
-            for call in calls(block) {
+        let mut above = None;
+        for block in page {
+            if is_scenario(block) {
+                above = Some(block);
+            }
+            let shell = ["sh", "bash", "console", "shell"].iter().any(|shell| says(block, shell));
+            for call in calls(block).iter().filter(|_| shell && !says(block, "ignore")) {
                 let command = call.split_whitespace().next().unwrap_or_default();
                 if RUN.contains(&command) || command.starts_with('-') {
-                    let ended = run(&scratch, &call);
+                    provide(&scratch, call, above);
+                    let ended = run(&scratch, call);
                     assert_eq!(ended.status, Some(0), "{name}:{}: {call}: {ended:?}", block.line);
                     count += 1;
                 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use landform::io::read_raster;
 use landform::sim::scenario::ScenarioSource;
+use landform::sim::simulation::Limits;
 use landform_tests::{Program, Scratch, cuts, files_below, repository, shown, write_hills};
 use serde_json::Value;
 
@@ -70,7 +71,7 @@ fn every_scenario_is_good_as_it_stands_or_wants_a_raster() {
         let source = ScenarioSource::open(&file).unwrap_or_else(|error| panic!("{error}"));
         let scenario = source.parse(&registry).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scenario.title.is_empty(), "{} has no title", shown(&file));
-        if let Err(problem) = scenario.check(source.folder()) {
+        if let Err(problem) = scenario.check(source.folder(), Limits::default()) {
             let wants_raster =
                 scenario.domain.name == "Raster" && problem.parameter == "domain.path";
             assert!(wants_raster, "{}", source.render(&problem));

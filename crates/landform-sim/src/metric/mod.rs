@@ -4,6 +4,8 @@ mod statistic;
 
 pub use statistic::{FieldStatistic, Statistic};
 
+use landform_graph::Lattice;
+
 use crate::parameters::{Parameters, Problem};
 use crate::snapshot::Snapshot;
 
@@ -15,6 +17,14 @@ pub trait Metric: Parameters {
     /// Fields that the metric needs, so that a wrong name is refused before the run.
     fn fields(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// Refuses before the run what the ranges of single parameters do not show.
+    ///
+    /// # Errors
+    /// The [`Problem`] names the parameter, what was expected and what to do.
+    fn validate(&self, _lattice: &Lattice) -> Result<(), Problem> {
+        Ok(())
     }
 
     /// Named values at this moment; an empty list when there is nothing to measure yet. The

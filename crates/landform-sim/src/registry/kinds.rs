@@ -142,6 +142,12 @@ pub trait AnyMetric: AnyParameters {
     /// See [`Metric::fields`].
     fn fields(&self) -> Vec<String>;
 
+    /// See [`Metric::validate`].
+    ///
+    /// # Errors
+    /// As the metric says.
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem>;
+
     /// See [`Metric::measure`].
     ///
     /// # Errors
@@ -152,6 +158,10 @@ pub trait AnyMetric: AnyParameters {
 impl<M: Metric> AnyMetric for M {
     fn fields(&self) -> Vec<String> {
         Metric::fields(self)
+    }
+
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        Metric::validate(self, lattice)
     }
 
     fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {

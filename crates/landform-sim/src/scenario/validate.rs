@@ -5,6 +5,7 @@ use std::path::Path;
 use super::{Scenario, StageEntry};
 use crate::parameters::Problem;
 use crate::registry::{AnyParameters, Chosen};
+use crate::simulation::Limits;
 
 impl Scenario {
     /// Everything wrong with the scenario that its text alone shows, with full paths.
@@ -46,12 +47,13 @@ impl Scenario {
 
 impl Scenario {
     /// Checks everything that can be checked without running: reads the files of the domain
-    /// and checks the processes against it, but allocates no nodes.
+    /// and checks the processes against it, but allocates no nodes. Larger domains than fit
+    /// into the limits are refused.
     ///
     /// # Errors
     /// The first [`Problem`], with the full path of its parameter.
-    pub fn check(&self, folder: &Path) -> Result<(), Problem> {
-        crate::simulation::check(self, folder).map(|_| ())
+    pub fn check(&self, folder: &Path, limits: Limits) -> Result<(), Problem> {
+        crate::simulation::check(self, folder, limits)
     }
 }
 

@@ -101,15 +101,15 @@ impl Simulation {
 }
 
 /// Everything that is settled before nodes are made.
-pub(crate) struct Plan {
+struct Plan {
     domain: Domain,
     fields: FieldTable,
     uses: Vec<Declaration>,
 }
 
 /// Checks a scenario without making nodes.
-pub(crate) fn check(scenario: &Scenario, folder: &Path) -> Result<Plan, Problem> {
-    plan(scenario, folder, Limits { memory_bytes: u64::MAX })
+pub(crate) fn check(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<(), Problem> {
+    plan(scenario, folder, limits).map(|_| ())
 }
 
 /// Makes the domain and checks everything against it, within the limits.
@@ -128,6 +128,7 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
     check_processes(&scenario.stages, &domain.lattice)?;
     check_names(scenario, &fields, &uses)?;
+    check_metrics(scenario, &fields, &domain.lattice)?;
     check_outputs(scenario, &fields, &domain.lattice)?;
     Ok(Plan { domain, fields, uses })
 }
@@ -189,11 +190,6 @@ fn check_names(
             return Err(Problem::new(path, message, "a stored field"));
         }
     }
-    for (index, metric) in scenario.metrics.iter().enumerate() {
-        for field in metric.value.fields() {
-            known_field(fields, &field, format!("metrics[{index}].field"))?;
-        }
-    }
     let mut provided: Vec<&str> = scenario.initial.iter().map(|e| e.field.as_str()).collect();
     for uses in declarations {
         for (entry, access) in uses.fields() {
@@ -206,6 +202,22 @@ fn check_names(
             }
             provided.push(entry.name);
         }
+    }
+    Ok(())
+}
+
+/// Checks that every metric can be measured in the run.
+fn check_metrics(
+    scenario: &Scenario,
+    fields: &FieldTable,
+    lattice: &Lattice,
+) -> Result<(), Problem> {
+    for (index, metric) in scenario.metrics.iter().enumerate() {
+        let path = format!("metrics[{index}]");
+        for field in metric.value.fields() {
+            known_field(fields, &field, format!("{path}.field"))?;
+        }
+        metric.value.validate(lattice).map_err(|problem| below(&path, problem))?;
     }
     Ok(())
 }

@@ -3,17 +3,20 @@
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
+use landform_sim::simulation::Limits;
 
 use super::arguments::CheckArguments;
-use super::{Failure, Outcome, run, talk};
+use super::{Failure, Outcome, memory, run, talk};
 
 /// Checks every scenario and reports all that are wrong.
 pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Outcome {
+    let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
+    let limits = Limits { memory_bytes };
     let mut messages = Vec::new();
     for path in &arguments.scenarios {
         let checked = run::open(path, &arguments.set).and_then(|source| {
             let scenario = source.parse(registry)?;
-            scenario.check(source.folder()).map_err(|problem| source.render(&problem))
+            scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))
         });
         match checked {
             Ok(()) => talk::say(&format!("{}: good\n", path.display()))?,

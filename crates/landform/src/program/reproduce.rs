@@ -22,13 +22,14 @@ struct Reproduction {
 /// Reproduces the figures of the arguments.
 pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>) -> Outcome {
     let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
+    let limits = Limits { memory_bytes };
     let mut figures = Vec::new();
     for name in &arguments.figures {
         let path = find(name).map_err(Failure::Refused)?;
         let mut figure = read(&path).map_err(Failure::Refused)?;
         figure.seeds = arguments.seeds.unwrap_or(figure.seeds);
         let base = path.parent().unwrap_or(Path::new("")).to_owned();
-        check(&figure, &base, registry).map_err(|why| {
+        check(&figure, &base, registry, limits).map_err(|why| {
             Failure::Refused(format!("{}: {}", path.display(), why.trim_start_matches("error: ")))
         })?;
         figures.push((base, figure));
@@ -43,7 +44,6 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        let limits = Limits { memory_bytes };
         let report = measure(&figure, &base, &folder, registry, limits, &mut tell, &mut hook);
         let report = report.map_err(|message| match interrupt::asked() {
             true => Failure::Interrupted(message),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
+use landform_sim::simulation::Limits;
 
 use super::measure::INITIAL;
 use super::{Figure, Quantity, RunEntry, Source};
@@ -14,10 +15,15 @@ use super::{Figure, Quantity, RunEntry, Source};
 ///
 /// # Errors
 /// A message that names the run or the target, what is wrong with it and what there is.
-pub fn check(figure: &Figure, base: &Path, registry: &Arc<Registry>) -> Result<(), String> {
+pub fn check(
+    figure: &Figure,
+    base: &Path,
+    registry: &Arc<Registry>,
+    limits: Limits,
+) -> Result<(), String> {
     let mut stages = Vec::with_capacity(figure.runs.len());
     for run in &figure.runs {
-        stages.push((run.name.as_str(), check_run(run, base, registry)?));
+        stages.push((run.name.as_str(), check_run(run, base, registry, limits)?));
     }
     for target in &figure.targets {
         let sources: &[&Source] = match &target.value {
@@ -35,7 +41,12 @@ pub fn check(figure: &Figure, base: &Path, registry: &Arc<Registry>) -> Result<(
 }
 
 /// Checks a run and returns the names of its stages.
-fn check_run(run: &RunEntry, base: &Path, registry: &Arc<Registry>) -> Result<Vec<String>, String> {
+fn check_run(
+    run: &RunEntry,
+    base: &Path,
+    registry: &Arc<Registry>,
+    limits: Limits,
+) -> Result<Vec<String>, String> {
     let mut parts = Path::new(&run.name).components();
     if !matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None)) {
         let name = &run.name;
@@ -43,7 +54,7 @@ fn check_run(run: &RunEntry, base: &Path, registry: &Arc<Registry>) -> Result<Ve
     }
     let source = ScenarioSource::open(&base.join(&run.scenario))?;
     let scenario = source.parse(registry)?;
-    scenario.check(source.folder()).map_err(|problem| source.render(&problem))?;
+    scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))?;
     let mut stages: Vec<String> = scenario.stages.into_iter().map(|stage| stage.name).collect();
     stages.push(INITIAL.to_owned());
     Ok(stages)
