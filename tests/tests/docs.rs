@@ -179,10 +179,13 @@ mod commands {
 
     #[test]
     fn commands_of_the_pages_run() {
+        let mut total = 0;
         for (page, text) in pages() {
             let count = run_all(&shown(&page), &blocks(&text));
             println!("{}: {count} commands", shown(&page));
+            total += count;
         }
+        assert!(total > 10, "{total} commands were found");
     }
 
     #[test]

@@ -1,5 +1,4 @@
-//! Every number of every process at the ends of its range: refused or run, never a panic, never
-//! a value that is not finite without being found.
+//! Every number of every process at the ends of its range: refused or run, never a panic.
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -128,9 +128,7 @@ fn the_books_close_where_sand_crosses_borders() {
 }
 
 #[test]
-fn sand_spreads_downwind_only_as_far_as_the_wind_blows() {
-    // A wind that never turns blows to the east: nothing crosses the other borders, and the
-    // middle of the sand moves east.
+fn a_steady_wind_blows_sand_over_one_border_only() {
     let wind = "winds: [(towards_deg: 0.0, spread_deg: 0.0, directions: 1)]";
     let run = run(&format!("Dunes(slab_m: 3.0, {wind})"), "(Open, Open)", "FourEight", 33.0);
     let account = &run.report.ledger.accounts()["sand"];
