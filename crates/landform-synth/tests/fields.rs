@@ -39,7 +39,7 @@ fn same(first: &[f64], second: &[f64]) -> bool {
 #[test]
 fn white_noise_has_the_moments_of_its_distribution() {
     let lattice = periodic([256, 256]);
-    let noise = WhiteNoise { mean_m: 3.0, amplitude_m: 2.0, distribution: Distribution::Uniform };
+    let noise = WhiteNoise { mean_m: 3.0, amplitude_m: 2.0, ..WhiteNoise::default() };
     let field = noise.generate(&lattice, 1).unwrap();
     assert!(field.iter().all(|v| (1.0..=5.0).contains(v)));
     assert!((mean(&field) - 3.0).abs() < 0.02);

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandpile::{
     AbelianSandpile, Avalanche, CorrosionLike, CorrosionState, SandLike, SandState, SandpileError,
+    SizeStatistics,
 };
 
 /// Events of the latest iteration: slips, blocks or topplings, and avalanches of a sandpile.
@@ -25,8 +26,8 @@ use crate::sandpile::{
 pub struct AvalancheRecord {
     /// Events of the latest iteration.
     pub events: u64,
-    /// Sizes of all avalanches of a sandpile since it reached its critical state.
-    pub sizes: Vec<u64>,
+    /// Sizes of all avalanches of a sandpile since the warm-up.
+    pub sizes: SizeStatistics,
 }
 
 impl Process for SandLike {
@@ -245,7 +246,7 @@ fn rain_grains(
         let Avalanche { size, .. } = pile.0.add_at_random(&stream, number);
         record.events += size;
         if clock.iteration >= settings.warm_up_iterations {
-            record.sizes.push(size);
+            record.sizes.record(size);
         }
     }
     ledger.enter("grains", "added", settings.grains_per_iteration as f64);

@@ -31,8 +31,10 @@ pub(super) fn check(world: &mut World, turn: &Turn) -> Result<(), RunError> {
     }
     for budget in &turn.budgets {
         let measured = (budget.measure)(world);
-        let mut ledger = world.resource_mut::<Ledger>();
-        ledger.check(budget, measured).map_err(|(expected, measured)| RunError::Budget {
+        let checked = world.resource_scope::<Ledger, _>(|world, mut ledger| {
+            ledger.check(budget, measured, || (budget.magnitude)(world))
+        });
+        checked.map_err(|(expected, measured)| RunError::Budget {
             process: process(),
             account: budget.account.to_owned(),
             unit: budget.unit.to_owned(),

@@ -23,13 +23,13 @@ impl Metric for Avalanches {
         let Some(record) = snapshot.world().get_resource::<AvalancheRecord>() else {
             return Ok(Vec::new());
         };
-        let count = record.sizes.len() as f64;
-        let total = record.sizes.iter().sum::<u64>() as f64;
         let lattice = snapshot.lattice();
-        let square = lattice.width() == lattice.height() && count > 0.0;
+        let recorded = record.sizes.count() > 0;
+        let square = recorded && lattice.width() == lattice.height();
         Ok(measured([
             ("avalanche_events", Some(record.events as f64)),
-            ("mean_avalanche", (count > 0.0).then(|| total / count)),
+            ("mean_avalanche", recorded.then(|| record.sizes.mean())),
+            ("largest_avalanche", recorded.then(|| record.sizes.largest() as f64)),
             ("mean_avalanche_exact", square.then(|| mean_avalanche_size(lattice.width()))),
         ]))
     }
