@@ -59,7 +59,7 @@ struct Blown {
 
 fn plane(size: [usize; 2]) -> Lattice {
     let boundary = [Boundary::Periodic; 2];
-    Lattice::plane(size, 3.0, Connectivity::FourEight, boundary).expect("a lattice")
+    Lattice::plane(size, 3.0, Connectivity::Four, boundary).expect("a lattice")
 }
 
 fn settings() -> DuneSettings {

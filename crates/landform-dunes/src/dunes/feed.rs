@@ -4,7 +4,7 @@ use landform_graph::Lattice;
 use landform_sim::random::{RandomStream, unit};
 
 use super::plane::Plane;
-use super::transport::{Flight, Landing, SUB_STEPS, SubStep};
+use super::transport::{Flight, Landing, Luck, SUB_STEPS, SubStep};
 use super::{TransportCounts, TransportSettings, WindLine};
 
 /// A supply of slabs from upwind.
@@ -68,8 +68,8 @@ impl Feed {
             let number = (slab * u64::from(SUB_STEPS)) as usize + step.number as usize;
             let words = self.place.block(step.iteration, number, 0);
             let start = self.start(sides, wind, flight.reach(), words.map(unit));
-            let key = (self.land, step.iteration, number);
-            match flight.enter(start, ground, key, &mut counts) {
+            let luck = Luck::new(self.land, step.iteration, number);
+            match flight.enter(start, ground, &luck, &mut counts) {
                 Landing::Node(node) => sand[node] += step.slab,
                 Landing::Left(border) => counts.left[border] += 1,
             }

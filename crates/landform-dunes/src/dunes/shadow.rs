@@ -93,7 +93,10 @@ pub(super) struct Caster<'a> {
 }
 
 /// Rows that [`Caster::along_rows`] keeps a running maximum for at once.
-const BUNDLE: usize = 8;
+const BUNDLE: usize = 32;
+
+/// Most steps that it follows one row before it turns to the next.
+const RUN: usize = 8;
 
 impl<'a> Caster<'a> {
     /// Works out how far a shadow can matter.
@@ -180,45 +183,66 @@ impl<'a> Caster<'a> {
         shaded.par_chunks_mut(BUNDLE * width).enumerate().for_each(|(bundle, shaded)| {
             let first = bundle * BUNDLE;
             let rows = shaded.len() / width;
-            let surface = &self.surface[first * width..(first + rows) * width];
-            if rows == BUNDLE {
-                self.bundle::<BUNDLE>(first, surface, shaded);
-            } else {
-                for row in 0..rows {
-                    let nodes = row * width..(row + 1) * width;
-                    self.bundle::<1>(first + row, &surface[nodes.clone()], &mut shaded[nodes]);
-                }
-            }
+            self.bundle(first, &self.surface[first * width..(first + rows) * width], shaded);
             if self.cut {
                 self.cut_to_reach(first, shaded);
             }
         });
     }
 
-    /// Shadow in `ROWS` rows from row `first` on.
-    fn bundle<const ROWS: usize>(&self, first: usize, surface: &[f64], shaded: &mut [bool]) {
+    /// Shadow in the rows from row `first` on, [`BUNDLE`] at most. A maximum waits for the one
+    /// before it, so the rows take turns: what waits in one goes on in the next.
+    fn bundle(&self, first: usize, surface: &[f64], shaded: &mut [bool]) {
         let width = self.plane.width;
+        let last = shaded.len() / width - 1;
         let column_at = |step: usize| if self.wind.is_forward() { step } else { width - 1 - step };
-        let mut peaks: [f64; ROWS] =
-            std::array::from_fn(|row| self.peak_upwind(column_at(0), first + row));
+        let mut peaks = [f64::NEG_INFINITY; BUNDLE];
+        for (row, peak) in peaks[..=last].iter_mut().enumerate() {
+            *peak = self.peak_upwind(column_at(0), first + row);
+        }
         let mut shift = self.wind.shift(0);
-        for step in 0..width {
-            let column = column_at(step);
+        let mut step = 0;
+        while step < width {
             let moved = self.wind.shift(step as isize);
             if moved > shift {
-                peaks.copy_within(..ROWS - 1, 1);
-                peaks[0] = self.peak_upwind(column, first);
+                peaks.copy_within(..last, 1);
+                peaks[0] = self.peak_upwind(column_at(step), first);
             } else if moved < shift {
-                peaks.copy_within(1.., 0);
-                peaks[ROWS - 1] = self.peak_upwind(column, first + ROWS - 1);
+                peaks.copy_within(1..=last, 0);
+                peaks[last] = self.peak_upwind(column_at(step), first + last);
             }
             shift = moved;
-            let tilt = step as f64 * self.drop;
-            for (row, peak) in peaks.iter_mut().enumerate() {
-                let height = surface[row * width + column] + tilt;
-                shaded[row * width + column] = *peak > height;
-                *peak = higher(*peak, height);
+            let run = (1..RUN.min(width - step))
+                .find(|&on| self.wind.shift((step + on) as isize) != shift)
+                .unwrap_or(RUN.min(width - step));
+            let rows = surface.chunks_exact(width).zip(shaded.chunks_exact_mut(width));
+            for (peak, (heights, shaded)) in peaks.iter_mut().zip(rows) {
+                *peak = self.follow(*peak, step..step + run, heights, shaded);
             }
+            step += run;
+        }
+    }
+
+    /// Follows a line over at most [`RUN`] steps in one row; gives its maximum afterwards.
+    fn follow(
+        &self,
+        peak: f64,
+        steps: std::ops::Range<usize>,
+        heights: &[f64],
+        shaded: &mut [bool],
+    ) -> f64 {
+        let pass = |peak: f64, (step, (&height, shaded)): (usize, (&f64, &mut bool))| {
+            let height = height + step as f64 * self.drop;
+            *shaded = peak > height;
+            higher(peak, height)
+        };
+        if self.wind.is_forward() {
+            let nodes = heights[steps.clone()].iter().zip(&mut shaded[steps.clone()]);
+            steps.zip(nodes).fold(peak, pass)
+        } else {
+            let columns = heights.len() - steps.end..heights.len() - steps.start;
+            let nodes = heights[columns.clone()].iter().zip(&mut shaded[columns]);
+            steps.zip(nodes.rev()).fold(peak, pass)
         }
     }
 

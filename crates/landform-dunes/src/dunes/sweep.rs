@@ -8,8 +8,11 @@ use super::plane::Plane;
 /// Nodes in a tile, a piece of a row: one word of a bit set.
 const TILE: usize = 64;
 
-/// Edges that are compared at once before any of them is looked at alone.
+/// Edges that are compared at once.
 const GROUP: usize = 8;
+
+/// Edges of a tile from which it costs less to compare all of its edges than just these.
+const MANY: u32 = 12;
 
 /// Nodes in rows with changes from which a family is worth several threads.
 const PARALLEL_NODES: usize = 1 << 15;
@@ -35,6 +38,8 @@ pub(super) struct Changes {
     nodes: Vec<[u64; 2]>,
     /// What slid in each row in the sweep under way.
     slid: Vec<Slid>,
+    /// Columns of the edges of a row that are too steep.
+    steep: Vec<[u32; 2]>,
 }
 
 impl Changes {
@@ -131,11 +136,11 @@ impl Sweep<'_> {
     fn run_serially(&self, layers: &mut Layers<'_>, changes: &mut Changes) {
         let width = self.plane.width;
         let count = width.div_ceil(TILE);
-        let Changes { tiles, rows, nodes, slid } = changes;
+        let Changes { tiles, rows, nodes, slid, steep } = changes;
         for row in self.rows().filter(|&row| self.is_due(row, rows)) {
             let end = self.end(row);
             let [from, to] = [row * width, end * width];
-            let mut marks = Marks { tiles, nodes, from: row * count, to: end * count };
+            let mut marks = Marks { tiles, nodes, from: row * count, to: end * count, steep };
             slid[row] = self.sweep_row([row, from, to], layers, &mut marks);
         }
     }
@@ -146,7 +151,7 @@ impl Sweep<'_> {
         // Rows come singly, or in pairs from the first or the second row on.
         let taken = self.group[0].rows + 1;
         let first = usize::from(self.group[0].rows == 1 && self.group[0].part == Part::Odd);
-        let Changes { tiles, rows, nodes, slid } = changes;
+        let Changes { tiles, rows, nodes, slid, .. } = changes;
         let fields = layers.sand[first * width..]
             .par_chunks_mut(taken * width)
             .zip(layers.surface[first * width..].par_chunks_mut(taken * width))
@@ -155,18 +160,21 @@ impl Sweep<'_> {
             .par_chunks_mut(taken * count)
             .zip(nodes[first * count..].par_chunks_mut(taken * count))
             .zip(slid[first..].par_chunks_mut(taken));
-        fields.zip(marks).enumerate().for_each(|(number, (fields, marks))| {
-            let ((sand, surface), bed) = fields;
-            let ((tiles, nodes), slid) = marks;
-            let row = first + number * taken;
-            if slid.len() < taken || !self.is_due(row, rows) {
-                return;
-            }
-            let to = self.group[0].rows;
-            let mut marks = Marks { tiles, nodes, from: 0, to: to * count };
-            let mut layers = Layers { bed, sand, surface };
-            slid[0] = self.sweep_row([row, 0, to * width], &mut layers, &mut marks);
-        });
+        fields.zip(marks).enumerate().for_each_init(
+            Vec::new,
+            |steep, (number, (fields, marks))| {
+                let ((sand, surface), bed) = fields;
+                let ((tiles, nodes), slid) = marks;
+                let row = first + number * taken;
+                if slid.len() < taken || !self.is_due(row, rows) {
+                    return;
+                }
+                let to = self.group[0].rows;
+                let mut marks = Marks { tiles, nodes, from: 0, to: to * count, steep };
+                let mut layers = Layers { bed, sand, surface };
+                slid[0] = self.sweep_row([row, 0, to * width], &mut layers, &mut marks);
+            },
+        );
     }
 
     /// Sweeps the edges of all families that start in a row. `from` and `to` are the first
@@ -198,6 +206,8 @@ struct Marks<'a> {
     from: usize,
     /// Index of the first tile of the row that edges end in.
     to: usize,
+    /// Columns of the edges of a row that are too steep: scratch.
+    steep: &'a mut Vec<[u32; 2]>,
 }
 
 /// The edges of a family that start in one row.
@@ -217,10 +227,14 @@ struct EdgeRow<'a> {
 
 impl EdgeRow<'_> {
     /// Sweeps the row, except for tiles where nothing changed.
+    ///
+    /// Edges of a family share no node, so those that are too steep may all be listed before
+    /// any sand slides. The slides then follow one another without a branch that the
+    /// processor could guess wrongly, and their memory is fetched in parallel.
     fn sweep(&self, layers: &mut Layers<'_>, marks: &mut Marks<'_>) -> Slid {
         let count = self.sweep.plane.width.div_ceil(TILE);
         let closing = self.closing();
-        let mut total = Slid::default();
+        marks.steep.clear();
         for tile in 0..count {
             let beside = self.beside(tile, count);
             let ends = [marks.from + tile, marks.to + tile, marks.to + beside];
@@ -234,23 +248,17 @@ impl EdgeRow<'_> {
                     self.steep_of(layers.surface, tile, changed)
                 }
             };
-            let mut slid = Slid::default();
             while steep != 0 {
                 let column = tile * TILE + steep.trailing_zeros() as usize;
                 steep &= steep - 1;
                 let end = column.wrapping_add_signed(self.family.columns);
-                self.slide(layers, marks, [column, end], &mut slid);
+                marks.steep.push([column as u32, end as u32]);
             }
             if let Some(edge) = closing.filter(|edge| edge[0] / TILE == tile) {
-                self.slide(layers, marks, edge, &mut slid);
-            }
-            if slid.slides > 0 {
-                ends.iter().for_each(|&end| marks.tiles[end] = self.now);
-                total.amount += slid.amount;
-                total.slides += slid.slides;
+                marks.steep.push(edge.map(|column| column as u32));
             }
         }
-        total
+        self.slide(layers, marks)
     }
 
     /// The other tile that edges from `tile` may end in.
@@ -299,20 +307,20 @@ impl EdgeRow<'_> {
         let first = &surface[self.from + inner.start..self.from + inner.end];
         let end = (self.to + inner.start).wrapping_add_signed(self.family.columns);
         let second = &surface[end..end + inner.len()];
-        let is_steep = |a: f64, b: f64| u64::from((a - b).abs() > trigger);
+        let is_steep = |a: f64, b: f64| (a - b).abs() > trigger;
         let (first_groups, first_rest) = first.as_chunks::<GROUP>();
         let (second_groups, second_rest) = second.as_chunks::<GROUP>();
         let mut bits = 0;
         let mut bit = inner.start - tile * TILE;
         for (first, second) in first_groups.iter().zip(second_groups) {
-            let steep: [u64; GROUP] = std::array::from_fn(|at| is_steep(first[at], second[at]));
-            if steep.iter().fold(0, |any, one| any | one) != 0 {
-                bits |= (0..GROUP).fold(0, |bits, at| bits | steep[at] << at) << bit;
-            }
+            // No branch: a guess whether any is steep would be wrong too often.
+            let steep: [u64; GROUP] =
+                std::array::from_fn(|at| if is_steep(first[at], second[at]) { 1 << at } else { 0 });
+            bits |= steep.iter().fold(0, |all, one| all | one) << bit;
             bit += GROUP;
         }
         for (at, (&first, &second)) in first_rest.iter().zip(second_rest).enumerate() {
-            bits |= is_steep(first, second) << (bit + at);
+            bits |= u64::from(is_steep(first, second)) << (bit + at);
         }
         bits
     }
@@ -332,6 +340,9 @@ impl EdgeRow<'_> {
     /// Those of some edges of a tile that are too steep. Sorting them out first, without a
     /// branch, costs less than to guess wrongly at every edge.
     fn steep_of(&self, surface: &[f64], tile: usize, mut edges: u64) -> u64 {
+        if edges.count_ones() >= MANY {
+            return self.steep(surface, tile) & edges;
+        }
         let trigger = self.family.rule.trigger();
         let first = &surface[self.from..];
         let second = &surface[self.to..];
@@ -358,22 +369,23 @@ impl EdgeRow<'_> {
         has_one.then_some([from, to])
     }
 
-    /// Lets sand slide along one edge, and marks what changed.
-    fn slide(
-        &self,
-        layers: &mut Layers<'_>,
-        marks: &mut Marks<'_>,
-        [first, second]: [usize; 2],
-        slid: &mut Slid,
-    ) {
-        let rule = &self.family.rule;
-        let amount = rule.slide(layers, self.from + first, self.to + second);
-        if amount > 0.0 {
-            slid.amount += amount;
-            slid.slides += 1;
-            let round = self.sweep.round as usize % 2;
-            marks.nodes[marks.from + first / TILE][round] |= 1 << (first % TILE);
-            marks.nodes[marks.to + second / TILE][round] |= 1 << (second % TILE);
+    /// Lets sand slide along the edges that were listed, and marks what changed.
+    fn slide(&self, layers: &mut Layers<'_>, marks: &mut Marks<'_>) -> Slid {
+        let round = self.sweep.round as usize % 2;
+        let mut total = Slid::default();
+        for edge in &*marks.steep {
+            let [first, second] = edge.map(|column| column as usize);
+            let amount = self.family.rule.slide(layers, self.from + first, self.to + second);
+            if amount > 0.0 {
+                total.amount += amount;
+                total.slides += 1;
+                for (tiles, column) in [(marks.from, first), (marks.to, second)] {
+                    let tile = tiles + column / TILE;
+                    marks.tiles[tile] = self.now;
+                    marks.nodes[tile][round] |= 1 << (column % TILE);
+                }
+            }
         }
+        total
     }
 }

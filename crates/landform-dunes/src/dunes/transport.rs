@@ -120,17 +120,16 @@ impl Flight {
         &self,
         place: [usize; 2],
         ground: &[u8],
-        key: (RandomStream, u64, usize),
+        luck: &Luck,
         counts: &mut TransportCounts,
     ) -> Landing {
-        let (stream, iteration, slab) = key;
         let node = place[0] + self.plane.width * place[1];
         // The last block of words: no flight hops that often.
-        let word = stream.block(iteration, slab, u32::MAX)[0];
+        let word = luck.block(u32::MAX)[0];
         if u64::from(word) < self.stays[usize::from(ground[node])] {
             return Landing::Node(node);
         }
-        self.fly(place, ground, key, counts)
+        self.fly(place, ground, luck, counts)
     }
 
     /// The node or border that a hop leads to.
@@ -142,25 +141,24 @@ impl Flight {
         Ok([column, row])
     }
 
-    /// Flies a slab from `place`, drawing from the block of random words of `key`.
+    /// Flies a slab from `place`.
     #[inline]
     pub fn fly(
         &self,
         mut place: [usize; 2],
         ground: &[u8],
-        key: (RandomStream, u64, usize),
+        luck: &Luck,
         counts: &mut TransportCounts,
     ) -> Landing {
-        let (stream, iteration, node) = key;
-        let mut words = [0; 4];
+        let mut words = luck.words;
         for hop in 0..self.most_hops {
             counts.hops += 1;
             place = match self.hop(place) {
                 Ok(place) => place,
                 Err(border) => return Landing::Left(border),
             };
-            if hop % 4 == 0 {
-                words = stream.block(iteration, node, hop / 4);
+            if hop % 4 == 0 && hop > 0 {
+                words = luck.block(hop / 4);
             }
             let landed = place[0] + self.plane.width * place[1];
             let stays = self.stays[usize::from(ground[landed])];
@@ -173,9 +171,35 @@ impl Flight {
     }
 }
 
-/// Where the slabs of one band landed: scratch.
+/// The random words that decide how often a slab hops.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Luck {
+    stream: RandomStream,
+    iteration: u64,
+    /// Node that the slab comes from, or another number of its own.
+    slab: usize,
+    /// The first words, which are enough for most slabs.
+    words: [u32; 4],
+}
+
+impl Luck {
+    /// The words of a slab at an iteration.
+    #[inline]
+    pub fn new(stream: RandomStream, iteration: u64, slab: usize) -> Self {
+        Self { stream, iteration, slab, words: stream.block(iteration, slab, 0) }
+    }
+
+    /// Further words.
+    fn block(&self, index: u32) -> [u32; 4] {
+        self.stream.block(self.iteration, self.slab, index)
+    }
+}
+
+/// Where the slabs of one band start and land: scratch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Band {
+    /// Slabs that leave a row.
+    lifted: Vec<Luck>,
     landings: Vec<u32>,
     counts: TransportCounts,
 }
@@ -245,8 +269,8 @@ fn lift(
     band.landings.clear();
     band.counts = TransportCounts::default();
     let sheltered_sand = if step.lift_in_shelter { SAND | SHELTERED } else { SAND };
-    let rows = sand.len() / width;
-    for row in first..first + rows {
+    for (row, sand) in (first..).zip(sand.chunks_exact_mut(width)) {
+        band.lifted.clear();
         for block in 0..blocks {
             let words = chances.polls(step.iteration, row * blocks + block);
             for (part, word) in words.into_iter().enumerate() {
@@ -258,18 +282,27 @@ fn lift(
                         break;
                     }
                     let node = row * width + column;
-                    if ground[node] != SAND && ground[node] != sheltered_sand {
-                        continue;
-                    }
-                    band.counts.lifts += 1;
-                    sand[node - first * width] -= step.slab;
-                    let key = (chances.land, step.iteration, node);
-                    match flight.fly([column, row], ground, key, &mut band.counts) {
-                        Landing::Node(node) => band.landings.push(node as u32),
-                        Landing::Left(border) => band.counts.left[border] += 1,
+                    if ground[node] == SAND || ground[node] == sheltered_sand {
+                        sand[column] -= step.slab;
+                        band.lifted.push(Luck::new(chances.land, step.iteration, node));
                     }
                 }
             }
+        }
+        fly_all(flight, ground, row, band);
+    }
+}
+
+/// Flies the slabs that were lifted from a row. Their random words are there already, so that
+/// the processor does not have to wait for them before it can know how often a slab hops.
+fn fly_all(flight: &Flight, ground: &[u8], row: usize, band: &mut Band) {
+    let Band { lifted, landings, counts } = band;
+    counts.lifts += lifted.len() as u64;
+    for luck in &*lifted {
+        let place = [luck.slab - row * flight.plane.width, row];
+        match flight.fly(place, ground, luck, counts) {
+            Landing::Node(node) => landings.push(node as u32),
+            Landing::Left(border) => counts.left[border] += 1,
         }
     }
 }
@@ -307,8 +340,8 @@ mod tests {
             }
             counts.lifts += 1;
             change[node] -= 1;
-            let key = (chances.land, STEP.iteration, node);
-            if let Landing::Node(landed) = flight.fly([column, row], ground, key, &mut counts) {
+            let luck = Luck::new(chances.land, STEP.iteration, node);
+            if let Landing::Node(landed) = flight.fly([column, row], ground, &luck, &mut counts) {
                 change[landed] += 1;
             }
         }
@@ -354,7 +387,7 @@ mod tests {
             let stream = RandomStream::new(3, "hops");
             let mut counts = TransportCounts::default();
             for slab in 0..200_000 {
-                flight.fly([3, 3], &ground, (stream, 0, slab), &mut counts);
+                flight.fly([3, 3], &ground, &Luck::new(stream, 0, slab), &mut counts);
             }
             let mean = counts.hops as f64 / 200_000.0;
             // Four standard errors of a geometric mean.
@@ -369,12 +402,12 @@ mod tests {
         let settings =
             TransportSettings { deposit_on_bare: 1e-12, most_hops: 9, ..Default::default() };
         let flight = Flight::new(plane, [5, 0], &settings);
-        let key = (RandomStream::new(3, "hops"), 0, 0);
+        let luck = Luck::new(RandomStream::new(3, "hops"), 0, 0);
         let mut counts = TransportCounts::default();
         let sheltered = vec![SHELTERED; 4000];
-        assert_eq!(flight.fly([3, 3], &sheltered, key, &mut counts), Landing::Node(308));
+        assert_eq!(flight.fly([3, 3], &sheltered, &luck, &mut counts), Landing::Node(308));
         assert_eq!((counts.hops, counts.tired), (1, 0));
-        assert_eq!(flight.fly([3, 3], &vec![0; 4000], key, &mut counts), Landing::Node(348));
+        assert_eq!(flight.fly([3, 3], &vec![0; 4000], &luck, &mut counts), Landing::Node(348));
         assert_eq!((counts.hops, counts.tired), (10, 1));
     }
 }
