@@ -2,6 +2,7 @@
 
 use bevy_ecs::component::Component;
 use bytemuck::TransparentWrapper;
+use rayon::prelude::*;
 
 /// A type of number that a field may hold at a node.
 pub trait Number: Copy + Default + Send + Sync + 'static {
@@ -10,22 +11,52 @@ pub trait Number: Copy + Default + Send + Sync + 'static {
 
     /// The number nearest to a double, saturating at the ends of the type's range.
     fn from_f64(value: f64) -> Self;
+
+    /// Whether none of the numbers is infinite or NaN.
+    fn all_finite(values: &[Self]) -> bool;
 }
 
-macro_rules! numbers {
+macro_rules! floats {
     ($($type:ty),*) => {$(
         impl Number for $type {
             fn to_f64(self) -> f64 {
                 self as f64
             }
             fn from_f64(value: f64) -> Self {
-                if (0.5 as $type) == (0 as $type) { value.round() as $type } else { value as $type }
+                value as $type
+            }
+            fn all_finite(values: &[Self]) -> bool {
+                // Blocks without an early exit are read at the speed of memory.
+                let spoilt = |block: &[$type]| {
+                    block.iter().fold(false, |bad, value| bad | !value.is_finite())
+                };
+                !values.par_chunks(BLOCK).any(spoilt)
             }
         }
     )*};
 }
 
-numbers!(f64, f32, u8, i32, u32);
+macro_rules! integers {
+    ($($type:ty),*) => {$(
+        impl Number for $type {
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            fn from_f64(value: f64) -> Self {
+                value.round() as $type
+            }
+            fn all_finite(_: &[Self]) -> bool {
+                true
+            }
+        }
+    )*};
+}
+
+/// Numbers that one thread looks at in a go.
+const BLOCK: usize = 1 << 14;
+
+floats!(f64, f32);
+integers!(u8, i32, u32);
 
 /// A field: a number at every node of the lattice, known by a name.
 ///

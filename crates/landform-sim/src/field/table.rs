@@ -5,7 +5,6 @@ use std::any::TypeId;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
 use bytemuck::TransparentWrapper;
-use rayon::prelude::*;
 use thiserror::Error;
 
 use super::param::one_slice;
@@ -56,9 +55,7 @@ impl FieldEntry {
             marker: Some(TypeId::of::<F>()),
             read: read_column::<F>,
             write: Some(write_column::<F>),
-            finite: |world| {
-                stored_values::<F>(world).par_iter().all(|value| value.to_f64().is_finite())
-            },
+            finite: |world| F::Value::all_finite(stored_values::<F>(world)),
             declare: |world| {
                 world.register_required_components::<crate::nodes::Node, Column<F>>();
             },
