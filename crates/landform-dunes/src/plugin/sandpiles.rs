@@ -180,6 +180,7 @@ impl Process for Sandpile {
                 unit: "1",
                 tolerance: 0.0,
                 measure: count_grains,
+                magnitude: count_grains,
             })
             .scratch(16);
     }
