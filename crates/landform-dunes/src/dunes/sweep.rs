@@ -12,7 +12,7 @@ const TILE: usize = 64;
 const GROUP: usize = 8;
 
 /// Edges of a tile from which it costs less to compare all of its edges than just these.
-const MANY: u32 = 12;
+const MANY: u32 = 24;
 
 /// Nodes in rows with changes from which a family is worth several threads.
 const PARALLEL_NODES: usize = 1 << 15;
