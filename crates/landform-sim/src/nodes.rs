@@ -22,8 +22,8 @@ impl std::ops::Deref for Space {
 }
 
 /// Bytes that the entity itself takes a node (location, allocator, table and archetype rows),
-/// as measured with bevy_ecs 0.20: up to 48 after a doubling of the entity list.
-pub const ENTITY_BYTES: usize = 48;
+/// as measured with bevy_ecs 0.20: up to 72 after a doubling of the entity list.
+pub const ENTITY_BYTES: usize = 72;
 
 /// Spawns one entity a node. Every field must have been declared before.
 pub(crate) fn spawn_nodes(world: &mut World, lattice: Lattice) {

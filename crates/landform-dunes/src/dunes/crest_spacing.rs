@@ -4,6 +4,7 @@
 //! `None`, never a number that means nothing.
 
 use landform_graph::Lattice;
+use rayon::prelude::*;
 
 use super::error::{DuneError, check_length};
 use super::profiles::Profiles;
@@ -48,20 +49,23 @@ pub fn correlation_spacing_m(
 ) -> Result<Option<f64>, DuneError> {
     check_length("surface", surface.len(), lattice.node_count())?;
     let profiles = Profiles::new(lattice, towards_deg);
-    let most = profiles.length / 2;
-    let curve: Vec<f64> =
-        (0..=most).map(|lag| correlation(&profiles, surface, surface, lag as isize)).collect();
+    let heights = Heights::new(surface);
+    let mut curve = vec![correlation(&profiles, &heights, &heights, 0)];
     // What rounding leaves of a level surface is no relief.
     let scale = surface.iter().fold(0.0, |most: f64, height| most.max(height.abs()));
     if curve[0] <= (1e-12 * scale).powi(2) {
         return Ok(None);
     }
-    let falling = |lag: &usize| curve[*lag] < curve[*lag - 1];
-    let trough = (1..=most).find(|lag| !falling(lag));
-    let peak = trough.and_then(|trough| {
-        (trough..most).find(|&lag| curve[lag] > curve[lag - 1] && curve[lag] >= curve[lag + 1])
-    });
-    Ok(peak.map(|lag| profiles.spacing * refined(&curve, lag)))
+    let mut past_trough = false;
+    for lag in 1..=profiles.length / 2 {
+        curve.push(correlation(&profiles, &heights, &heights, lag as isize));
+        let before = lag - 1;
+        if past_trough && curve[before] > curve[before - 1] && curve[before] >= curve[lag] {
+            return Ok(Some(profiles.spacing * refined(&curve, before)));
+        }
+        past_trough |= curve[lag] >= curve[before];
+    }
+    Ok(None)
 }
 
 /// How far a dune field moved downwind between two surfaces, metres, refined below the spacing
@@ -84,8 +88,9 @@ pub fn drift_m(
     check_length("after", after.len(), lattice.node_count())?;
     let profiles = Profiles::new(lattice, towards_deg);
     let most = ((furthest_m / profiles.spacing) as usize + 1).min(profiles.length / 2) as isize;
+    let [before, after] = [before, after].map(Heights::new);
     let curve: Vec<f64> =
-        (-most..=most).map(|lag| correlation(&profiles, before, after, lag)).collect();
+        (-most..=most).map(|lag| correlation(&profiles, &before, &after, lag)).collect();
     let best =
         (0..curve.len()).fold(0, |best, lag| if curve[lag] > curve[best] { lag } else { best });
     let level = curve.iter().all(|&value| value == curve[0]);
@@ -93,26 +98,44 @@ pub fn drift_m(
     Ok((inside && !level).then(|| profiles.spacing * (refined(&curve, best) - most as f64)))
 }
 
+/// A surface and its mean.
+struct Heights<'a> {
+    surface: &'a [f64],
+    mean: f64,
+}
+
+impl<'a> Heights<'a> {
+    fn new(surface: &'a [f64]) -> Self {
+        Self { surface, mean: surface.iter().sum::<f64>() / surface.len() as f64 }
+    }
+
+    fn above_mean(&self, node: usize) -> f64 {
+        self.surface[node] - self.mean
+    }
+}
+
 /// Mean product of one surface with another `lag` places further downwind, each less its mean.
-/// Pairs beyond the ends of open profiles are left out.
-fn correlation(profiles: &Profiles, first: &[f64], second: &[f64], lag: isize) -> f64 {
-    let mean = |surface: &[f64]| surface.iter().sum::<f64>() / surface.len() as f64;
-    let [first_mean, second_mean] = [mean(first), mean(second)];
+/// Pairs beyond the ends of open profiles are left out. Profiles are added in their order.
+fn correlation(profiles: &Profiles, first: &Heights, second: &Heights, lag: isize) -> f64 {
     let length = profiles.length as isize;
-    let (mut sum, mut count) = (0.0, 0_usize);
-    for profile in 0..profiles.count {
+    let of_profile = |profile: usize| {
+        let (mut sum, mut count) = (0.0, 0_usize);
         for place in 0..length {
             let shifted = match place + lag {
                 inside if (0..length).contains(&inside) => inside,
                 outside if profiles.is_cyclic => outside.rem_euclid(length),
                 _ => continue,
             };
-            let here = first[profiles.node(profile, place as usize)] - first_mean;
-            let there = second[profiles.node(profile, shifted as usize)] - second_mean;
+            let here = first.above_mean(profiles.node(profile, place as usize));
+            let there = second.above_mean(profiles.node(profile, shifted as usize));
             sum += here * there;
             count += 1;
         }
-    }
+        (sum, count)
+    };
+    let sums: Vec<(f64, usize)> = (0..profiles.count).into_par_iter().map(of_profile).collect();
+    let sum: f64 = sums.iter().map(|(sum, _)| sum).sum();
+    let count: usize = sums.iter().map(|(_, count)| count).sum();
     sum / count.max(1) as f64
 }
 

@@ -4,8 +4,8 @@ use crate::nodes::ENTITY_BYTES;
 use crate::parameters::Problem;
 use crate::process::Declaration;
 
-/// Bytes a node that building a run takes besides the fields: one buffer of doubles.
-const BUILD_BYTES: usize = 16;
+/// Bytes a node that building a run takes besides the fields: buffers of doubles to fill one.
+const BUILD_BYTES: usize = 24;
 
 /// Bytes a node of a run with these declarations.
 pub(super) fn bytes_per_node(fields: usize, declarations: &[Declaration]) -> usize {
