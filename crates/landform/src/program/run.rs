@@ -7,7 +7,7 @@ use landform_io::{IfExists, write_raster};
 use landform_sim::output::OutputFile;
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
-use landform_sim::simulation::{Limits, Report, RunError, Simulation};
+use landform_sim::simulation::{Limits, ProgressHook, Report, RunError, Simulation};
 
 use super::arguments::RunArguments;
 use super::progress_bar::Bar;
@@ -29,13 +29,29 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         let folder = folder::make(arguments.output.as_deref(), &stem, arguments.force)
             .map_err(Failure::Refused)?;
         let mut bar = Bar::new(arguments.quiet);
-        let mut report = Report::default();
-        let result = simulation.run(&folder, &mut bar, &mut report);
+        let done = run_in(&folder, &mut simulation, &source, &mut bar);
         bar.finish();
-        finish(&simulation, &source, &folder, &mut report).map_err(Failure::Failed)?;
+        let (report, result) = done.map_err(Failure::Failed)?;
         result.map_err(|error| failure(error, &folder))?;
         talk::say(&summary(&report, &folder))
     })
+}
+
+/// Runs a simulation, which was built from `source`, and leaves in `folder` what every run leaves
+/// there, however it ended: this is a run of `landform run` and of a sweep.
+///
+/// # Errors
+/// A message when the folder cannot be written.
+pub(super) fn run_in(
+    folder: &Path,
+    simulation: &mut Simulation,
+    source: &ScenarioSource,
+    hook: &mut dyn ProgressHook,
+) -> Result<(Report, Result<(), RunError>), String> {
+    let mut report = Report::default();
+    let result = simulation.run(folder, hook, &mut report);
+    finish(simulation, source, folder, &mut report)?;
+    Ok((report, result))
 }
 
 /// Opens a scenario and makes the edits of the command line.
