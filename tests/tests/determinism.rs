@@ -62,6 +62,9 @@ const GOLDEN: &[Case] = &[
     case("CorrosionLike()", &[HILLS], TORUS, 0x07ae_c067_db3e_bdd2),
     case("CorrosionLike()", &[HILLS], ISLAND, 0x9d43_6ba6_df1b_bfec),
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
+    case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
+    case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
+    case("ForestFire(growth: 0.01, lightning: 0.001)", &[], ISLAND, 0x6e18_8e9e_b651_7e2c),
 ];
 
 impl Case {
@@ -92,6 +95,9 @@ impl Case {
     fn measured(&self) -> &'static str {
         match self.name() {
             "Sandpile" => "grains",
+            "Life" => "alive",
+            "LivingCells" => "cells",
+            "ForestFire" => "forest",
             _ => "surface",
         }
     }

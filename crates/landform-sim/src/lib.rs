@@ -27,6 +27,7 @@ pub mod metric;
 pub mod nodes;
 pub mod output;
 pub mod parameters;
+pub mod prelude;
 pub mod process;
 pub mod random;
 pub mod registry;

@@ -58,6 +58,12 @@ impl RandomStream {
         philox(counter, self.key)
     }
 
+    /// A number in [0, 1) for a node at an iteration; `index` numbers further ones.
+    #[inline]
+    pub fn unit(&self, iteration: u64, node: usize, index: u32) -> f64 {
+        unit(self.block(iteration, node, index)[0])
+    }
+
     /// A generator for all the numbers that one node draws at one iteration. It works with
     /// every method of `rand::RngExt` and every distribution of `rand_distr`.
     pub fn at(&self, iteration: u64, node: usize) -> NodeRandom {

@@ -28,7 +28,6 @@
 pub mod inputs;
 pub mod metrics;
 pub mod outputs;
-pub mod prelude;
 mod program;
 mod registry;
 pub mod reproduce;
@@ -37,7 +36,9 @@ pub use landform_analysis as analysis;
 pub use landform_dunes as dunes;
 pub use landform_graph as graph;
 pub use landform_io as io;
+pub use landform_lessons as lessons;
 pub use landform_sim as sim;
+pub use landform_sim::prelude;
 pub use landform_synth as synth;
 pub use landform_view as view;
 

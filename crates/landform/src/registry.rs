@@ -12,6 +12,7 @@ pub fn registry() -> Registry {
     registry.initial::<inputs::DomainRaster>().initial::<inputs::RasterFile>();
     landform_synth::register(&mut registry);
     landform_dunes::register(&mut registry);
+    landform_lessons::register(&mut registry);
     registry.metric::<FieldStatistic>().metric::<metrics::SpectralFalloff>();
     registry
         .output::<outputs::Picture>()

@@ -64,6 +64,15 @@ impl<G: AgentGroup> Group<G> {
     pub(crate) const BYTES: usize = 5;
 }
 
+/// 1 at the nodes where an agent of `G` stands and 0 elsewhere, as the values of a derived
+/// field: see [`crate::process::Declaration::derives`].
+pub fn presence<G: AgentGroup>(world: &World) -> Vec<f64> {
+    let Some(group) = world.get_resource::<Group<G>>() else { return Vec::new() };
+    let mut presence = vec![0.0; group.born.len()];
+    group.members.iter().for_each(|node| presence[node] = 1.0);
+    presence
+}
+
 /// Makes staged deaths and then births of `G` real, in node order, stamped with `tick`.
 pub(crate) fn apply_staged<G: AgentGroup>(world: &mut World, tick: u32) {
     let mut states = world.query::<&mut AgentState<G>>();

@@ -9,7 +9,7 @@ mod group;
 mod members;
 mod view;
 
-pub use group::{AgentGroup, AgentState, Group};
+pub use group::{AgentGroup, AgentState, Group, presence};
 pub use members::NodeSet;
 pub use view::{AgentView, Agents};
 

@@ -1,0 +1,25 @@
+//! Lessons: small processes, one of each style, to read and to copy.
+//!
+//! | style | process | what it shows |
+//! |---|---|---|
+//! | a field and a kernel | [`Life`] | a rule for every node, at the speed of memory |
+//! | the same with agents | [`LivingCells`] | births and deaths; the same model twice |
+//! | agents at some nodes | [`ForestFire`] | two groups, parity, a derived field |
+//!
+//! They are processes like any other: they use nothing that a crate of your own could not use.
+//! The chapter "Lessons" of the book walks through them.
+
+mod forest_fire;
+mod life;
+mod living_cells;
+
+pub use forest_fire::{Burnt, Fires, ForestFire, Trees};
+pub use life::{Alive, Life, generation, generation_reference};
+pub use living_cells::{Cells, LivingCells};
+
+use landform_sim::registry::Registry;
+
+/// Registers the processes of this crate.
+pub fn register(registry: &mut Registry) {
+    registry.process::<Life>().process::<LivingCells>().process::<ForestFire>();
+}
