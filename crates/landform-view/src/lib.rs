@@ -2,8 +2,8 @@
 //!
 //! A [`HeightField`] is checked once; then [`relief::shaded_relief`] draws it as a map and
 //! [`perspective::render`] as a block or as ground to the horizon. [`flat`] draws any other field
-//! with a colour bar, [`montage`] puts pictures together as figures, and [`animation`] writes
-//! frames to a file as a run goes on. Everything is computed on the CPU, and the bytes do not
+//! with a colour bar, [`montage`] puts pictures together as figures, [`plot`] draws curves with
+//! axes, and [`animation`] writes frames to a file as a run goes on. Everything is computed on the CPU, and the bytes do not
 //! depend on the number of threads.
 //!
 //! Rows run south (row 0 is the northernmost), directions of cameras and suns are compass
@@ -40,6 +40,7 @@ mod image;
 mod light;
 pub mod montage;
 pub mod perspective;
+pub mod plot;
 pub mod relief;
 mod shade;
 mod smoothing;

@@ -148,7 +148,7 @@ fn caption_lines(
 }
 
 /// a, b, ..., z, aa, ab, ... for 1, 2, ..., 26, 27, 28, ...
-fn letter_name(mut number: usize) -> String {
+pub(crate) fn letter_name(mut number: usize) -> String {
     let mut name = String::new();
     while number > 0 {
         number -= 1;

@@ -11,6 +11,13 @@ static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
     FontRef::try_from_slice(dejavu::sans::regular()).expect("the embedded font is a font")
 });
 
+/// From the top of a line down to half the height of its figures, as a share of its size.
+pub(crate) const MIDDLE: f32 = 0.484;
+/// From there down to the foot of the figures.
+pub(crate) const FOOT: f32 = 0.313;
+/// The size that CSS knows the font by, its em, as a share of the size meant here.
+pub(crate) const EM: f32 = 0.859;
+
 /// Height of a line of letters `size` pixels high, in pixels.
 pub(crate) fn line_height(size: f32) -> usize {
     (size * 1.25).ceil() as usize
@@ -24,13 +31,27 @@ pub(crate) fn width(text: &str, size: f32) -> usize {
 /// Writes a line of text with its top left corner at a column and a row; letters outside the
 /// picture are cut.
 pub(crate) fn draw(image: &mut Image, text: &str, at: [f32; 2], size: f32, colour: [u8; 3]) {
+    cover(text, size, at, |x, y, share| blend(image, x, y, colour, share));
+}
+
+/// Writes a line of text that runs upwards; its top left corner, seen with the head to the left,
+/// is at a column and a row.
+pub(crate) fn draw_upward(image: &mut Image, text: &str, at: [f32; 2], size: f32, colour: [u8; 3]) {
+    let [column, row] = [at[0] as i64, at[1] as i64];
+    cover(text, size, [0.0; 2], |x, y, share| {
+        blend(image, column + y, row - 1 - x, colour, share);
+    });
+}
+
+/// Calls `ink` with the column, the row and the covered share of each pixel of a line of text.
+fn cover(text: &str, size: f32, at: [f32; 2], mut ink: impl FnMut(i64, i64, f32)) {
     for mut glyph in layout(text, size).0 {
         glyph.position += point(at[0], at[1]);
         let Some(outline) = FONT.outline_glyph(glyph) else { continue };
         let corner = outline.px_bounds().min;
         outline.draw(|x, y, coverage| {
             let (column, row) = (corner.x as i64 + i64::from(x), corner.y as i64 + i64::from(y));
-            blend(image, column, row, colour, coverage.min(1.0));
+            ink(column, row, coverage.min(1.0));
         });
     }
 }
@@ -69,7 +90,7 @@ fn layout(text: &str, size: f32) -> (Vec<Glyph>, f32) {
 }
 
 /// Lays ink over a pixel, if the picture has it; `share` is how much of the pixel is covered.
-fn blend(image: &mut Image, column: i64, row: i64, colour: [u8; 3], share: f32) {
+pub(crate) fn blend(image: &mut Image, column: i64, row: i64, colour: [u8; 3], share: f32) {
     let (Ok(column), Ok(row)) = (usize::try_from(column), usize::try_from(row)) else { return };
     if column < image.width && row < image.height {
         let pixel = &mut image.rgb[column + image.width * row];
