@@ -2,6 +2,8 @@
 //!
 //! - `breadth-first, everything`: one search over 512x512 nodes, a visit, against `petgraph`'s `Bfs`
 //!   on the same lattice; `radius 10`: many small searches, against the same;
+//! - `small searches`: breadth-first, by distance and by a front of one's own, among four million
+//!   nodes against the same among four thousand: the cost is that of the nodes visited;
 //! - `ray`: rays of 120 nodes at all angles that add heights, a step, against the same steps
 //!   without a lattice: rounding and a check of the bounds;
 //! - `relaxation`: a front over 26 neighbours with a random cost a node, a voxel, against Dijkstra's
@@ -16,7 +18,7 @@ use std::collections::BinaryHeap;
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use landform::graph::marching::Relaxation;
+use landform::graph::marching::{FastMarching, Front, MarchOptions, Relaxation};
 use landform::graph::quadric::{gradient_field, laplacian_field};
 use landform::graph::{Boundary, BreadthFirst, Connectivity, Edge, Lattice, Reach};
 use landform::sim::random::{RandomStream, unit};
@@ -69,6 +71,64 @@ fn searches(effort: Effort, lattice: &Lattice) {
     let middles: Vec<usize> = (0..600).map(|n| lattice.node([20 + n % 470, 250, 0])).collect();
     let pair = pairs(rounds, || visits(&middles, Reach::metres(10.0)), petgraph);
     pair.print("breadth-first, radius 10, a visit", "petgraph Bfs, everything", "");
+    let [mut few, mut many] = [64, 2048].map(LocalSearches::new);
+    let pair = pairs(rounds, || many.visits(), || few.visits());
+    pair.print("small searches, 2048x2048, a visit", "the same, 64x64", "");
+}
+
+/// Searches of three kinds around the middle of a square, with the memory that they share.
+struct LocalSearches {
+    lattice: Lattice,
+    breadth_first: BreadthFirst,
+    marching: FastMarching,
+    front: Front,
+    /// Number of the last front that reached a node.
+    reached: Vec<usize>,
+    fronts: usize,
+}
+
+impl LocalSearches {
+    fn new(side: usize) -> Self {
+        let lattice = Lattice::plane([side; 2], 1.0, Connectivity::Eight, [Boundary::Open; 2]);
+        let lattice = lattice.expect("a lattice");
+        Self {
+            breadth_first: BreadthFirst::new(),
+            marching: FastMarching::new(),
+            front: Front::new(),
+            reached: vec![0; lattice.node_count()],
+            fronts: 0,
+            lattice,
+        }
+    }
+
+    /// Runs a hundred searches of each kind and returns how many nodes they visited.
+    fn visits(&mut self) -> usize {
+        let Self { lattice, breadth_first, marching, front, reached, fronts } = self;
+        let corner = lattice.width() / 2 - 5;
+        let options = MarchOptions { limit: 8.0, ..MarchOptions::default() };
+        let mut visits = 0;
+        for number in 0..100 {
+            let source = lattice.node([corner + number % 10, corner + number / 10, 0]);
+            visits +=
+                breadth_first.collect(lattice, &[source], Reach::metres(8.0), |_, _| true).len();
+            let arrivals = marching.distance(lattice, &[source], options);
+            visits += arrivals.expect("a march").order.len();
+            *fronts += 1;
+            let spread = |_: usize, edge: &Edge| {
+                let first = std::mem::replace(&mut reached[edge.node], *fronts) != *fronts;
+                first.then_some(number as f64 + edge.distance)
+            };
+            let mut left = 200;
+            let stop = |_, _| {
+                left -= 1;
+                if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let stopped = front.search(lattice, &[(source, 0.0)], spread, stop);
+            assert_eq!(stopped, Ok(Some(())));
+            visits += 200;
+        }
+        visits
+    }
 }
 
 fn rays(effort: Effort, lattice: &Lattice, heights: &[f64]) {

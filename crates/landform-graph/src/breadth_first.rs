@@ -156,6 +156,42 @@ impl BreadthFirst {
         &self.queue
     }
 
+    /// The first node that is `wanted` in the order of [`BreadthFirst::search`]: the one over
+    /// the fewest edges, of several such the first in neighbour order. The search ends there.
+    ///
+    /// ```
+    /// use landform_graph::{Boundary, BreadthFirst, Connectivity, Lattice, Reach};
+    /// let lattice = Lattice::plane([9, 9], 1.0, Connectivity::Four, [Boundary::Open; 2])?;
+    /// let height: Vec<f64> = (0..81).map(|node| (node % 9) as f64).collect();
+    /// let tree = |node: usize| node % 3 == 0;
+    /// // The nearest tree above 5 m.
+    /// let found = BreadthFirst::new().find(
+    ///     &lattice,
+    ///     &[40],
+    ///     Reach::metres(4.0),
+    ///     |_, _| true,
+    ///     |visit| tree(visit.node) && height[visit.node] > 5.0,
+    /// );
+    /// assert_eq!(found.map(|visit| (visit.node, visit.edges)), Some((42, 2)));
+    /// # Ok::<(), landform_graph::LatticeError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If a source does not lie in the lattice.
+    pub fn find(
+        &mut self,
+        lattice: &Lattice,
+        sources: &[usize],
+        reach: Reach,
+        passes: impl FnMut(usize, &Edge) -> bool,
+        mut wanted: impl FnMut(&Visit) -> bool,
+    ) -> Option<Visit> {
+        self.search(lattice, sources, reach, passes, |visit| match wanted(visit) {
+            true => ControlFlow::Break(*visit),
+            false => ControlFlow::Continue(()),
+        })
+    }
+
     /// Forgets the last search.
     fn begin(&mut self, nodes: usize) {
         self.queue.clear();

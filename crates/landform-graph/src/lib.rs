@@ -9,6 +9,7 @@
 //! | graph of a terrain mesh, degrees 8 and 4 in turn | [`Lattice::plane`] with [`Connectivity::FourEight`] |
 //! | graph of voxels, 26 neighbours | [`Lattice::volume`] with [`Connectivity::Voxel26`] |
 //! | two directed edges for each pair of neighbours | [`Edge`]; [`LatticeEdge`] to petgraph |
+//! | extra data on edges | [`Lattice::slot`], [`Lattice::reverse_slot`]: values in slices |
 //! | neighbour search | [`Lattice::neighbours`] |
 //! | search along a ray with a given direction | [`Lattice::ray`]; over edges [`Lattice::walk`] |
 //! | breadth-first search, radius, filter on edges | [`BreadthFirst`] |
@@ -44,6 +45,7 @@ pub mod marching;
 mod neighbours;
 pub mod quadric;
 mod ray;
+mod slots;
 #[cfg(test)]
 mod testing;
 mod visit;

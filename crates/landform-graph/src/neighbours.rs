@@ -9,6 +9,8 @@ pub struct Edge {
     pub node: usize,
     /// Steps along x (east), y (south: one row on) and z (up) that lead to it.
     pub step: [i8; 3],
+    /// Number of that step in the order of [`Lattice::neighbours`]: the same at every node.
+    pub direction: u8,
     /// Length of the edge in metres.
     pub distance: f64,
 }
@@ -56,6 +58,12 @@ pub struct Neighbours<'a> {
     stencil: std::slice::Iter<'a, Edge>,
 }
 
+impl<'a> Neighbours<'a> {
+    pub(crate) fn lattice(&self) -> &'a Lattice {
+        self.lattice
+    }
+}
+
 impl Iterator for Neighbours<'_> {
     type Item = Edge;
 
@@ -98,12 +106,13 @@ impl Lattice {
     pub(crate) fn inner_edges(&self) -> Vec<Edge> {
         let [width, height, _] = self.size().map(|size| size as isize);
         // Node (0, 0) has every step that any node has.
-        let edge = |&step: &[i8; 3]| {
+        let edge = |(direction, &step): (usize, &[i8; 3])| {
             let [x, y, z] = step.map(isize::from);
             let offset = x + width * (y + height * z);
-            Edge { node: offset as usize, step, distance: self.step_length(step) }
+            let (node, direction) = (offset as usize, direction as u8);
+            Edge { node, step, direction, distance: self.step_length(step) }
         };
-        self.steps_at([0; 3]).iter().map(edge).collect()
+        self.steps_at([0; 3]).iter().enumerate().map(edge).collect()
     }
 
     /// Whether no edge that leaves `origin` reaches over a border, be it open or periodic.

@@ -28,18 +28,13 @@ pub struct LatticeEdge {
     length: f64,
 }
 
-/// Numbers set aside for the edges of a node: one a step to a cell around it, and one unused.
-const IDS_PER_NODE: usize = 27;
-
 impl LatticeEdge {
-    /// The edge that leaves `node`, or its opposite that enters `node`.
-    fn new(node: usize, edge: Edge, direction: Direction) -> Self {
-        let (source, target, step) = match direction {
-            Direction::Outgoing => (node, edge.node, edge.step),
-            Direction::Incoming => (edge.node, node, edge.step.map(|s| -s)),
+    /// The edge that leaves `node`, or its opposite that enters `node`. Its number is its slot.
+    fn new(lattice: &Lattice, node: usize, edge: Edge, direction: Direction) -> Self {
+        let (source, target, id) = match direction {
+            Direction::Outgoing => (node, edge.node, lattice.slot(node, &edge)),
+            Direction::Incoming => (edge.node, node, lattice.reverse_slot(&edge)),
         };
-        let [x, y, z] = step.map(|s| (s + 1) as usize);
-        let id = source * IDS_PER_NODE + x + 3 * (y + 3 * z);
         Self { source, target, id, length: edge.distance }
     }
 }
@@ -82,7 +77,7 @@ impl Iterator for NodeEdges<'_> {
 
     fn next(&mut self) -> Option<LatticeEdge> {
         let edge = self.neighbours.next()?;
-        Some(LatticeEdge::new(self.node, edge, self.direction))
+        Some(LatticeEdge::new(self.neighbours.lattice(), self.node, edge, self.direction))
     }
 }
 
@@ -124,14 +119,11 @@ impl DataMap for Lattice {
     }
 
     fn edge_weight(&self, edge: usize) -> Option<&f64> {
-        let (source, code) = (edge / IDS_PER_NODE, edge % IDS_PER_NODE);
+        let (source, direction) = (edge / self.directions(), edge % self.directions());
         self.node_weight(source)?;
-        let step = [code % 3, code / 3 % 3, code / 9].map(|s| s as i8 - 1);
-        let origin = self.coordinates(source);
-        let allowed = self.steps_at(origin).contains(&step);
-        let exists = allowed && self.offset(origin, step.map(isize::from)).is_some();
+        let step = self.edge(source, direction as u8)?.step;
         let axes_moved = step.iter().filter(|&&s| s != 0).count();
-        if exists { self.edge_lengths().get(axes_moved - 1) } else { None }
+        self.edge_lengths().get(axes_moved - 1)
     }
 }
 
@@ -163,7 +155,7 @@ impl NodeCompactIndexable for Lattice {}
 
 impl EdgeIndexable for Lattice {
     fn edge_bound(&self) -> usize {
-        Lattice::node_count(self) * IDS_PER_NODE
+        self.slots()
     }
 
     fn to_index(&self, edge: usize) -> usize {

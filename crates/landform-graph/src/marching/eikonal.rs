@@ -1,5 +1,7 @@
 //! Travel times of a front: the eikonal equation by fast marching.
 
+use std::ops::ControlFlow;
+
 use fixedbitset::FixedBitSet;
 
 use super::queue::TimeQueue;
@@ -73,7 +75,8 @@ pub struct Arrivals<'a> {
 /// a source. Where speeds jump or fronts go round an obstacle, both orders are of first.
 ///
 /// Cost: that of the nodes reached, times the logarithm of the width of the front; nothing
-/// that the front does not reach is touched.
+/// that the front does not reach is touched, and nothing is allocated once the memory fits the
+/// lattice and the front.
 ///
 /// ```
 /// use landform_graph::marching::{FastMarching, MarchOptions, Speed};
@@ -119,19 +122,29 @@ impl FastMarching {
         starts: &[(usize, f64)],
         options: MarchOptions,
     ) -> Result<Arrivals<'_>, MarchError> {
-        if let Speed::Field(speeds) = speed {
-            check_length(lattice, "speed", speeds.len())?;
-        }
-        for &(node, time) in starts {
-            check_start(lattice, node, time)?;
-        }
+        self.search(lattice, speed, starts, options, |_, _| ControlFlow::<()>::Continue(()))?;
+        Ok(Arrivals { time: &self.time, order: &self.order })
+    }
+
+    /// As [`FastMarching::solve`], and `visit(node, time)` is told of every node that the front
+    /// reaches, in the order of arrival: it may end the march with [`ControlFlow::Break`], whose
+    /// value is returned. So does an agent search for the nearest node of a kind.
+    ///
+    /// # Errors
+    /// As [`FastMarching::solve`].
+    pub fn search<B>(
+        &mut self,
+        lattice: &Lattice,
+        speed: Speed<'_>,
+        starts: &[(usize, f64)],
+        options: MarchOptions,
+        visit: impl FnMut(usize, f64) -> ControlFlow<B>,
+    ) -> Result<Option<B>, MarchError> {
         self.begin(lattice.node_count());
         for &(node, time) in starts {
-            self.starts.insert(node);
-            self.offer(node, time);
+            self.start(lattice, node, time)?;
         }
-        self.march(&Medium { axes: Axes::new(lattice), speed, options })?;
-        Ok(Arrivals { time: &self.time, order: &self.order })
+        self.march(lattice, speed, options, visit)
     }
 
     /// Distance in metres from the nearest of `sources` to every node.
@@ -144,8 +157,21 @@ impl FastMarching {
         sources: &[usize],
         options: MarchOptions,
     ) -> Result<Arrivals<'_>, MarchError> {
-        let starts: Vec<_> = sources.iter().map(|&node| (node, 0.0)).collect();
-        self.solve(lattice, Speed::Uniform(1.0), &starts, options)
+        self.begin(lattice.node_count());
+        for &node in sources {
+            self.start(lattice, node, 0.0)?;
+        }
+        let all = |_, _| ControlFlow::<()>::Continue(());
+        self.march(lattice, Speed::Uniform(1.0), options, all)?;
+        Ok(Arrivals { time: &self.time, order: &self.order })
+    }
+
+    /// Releases a front at a node.
+    fn start(&mut self, lattice: &Lattice, node: usize, time: f64) -> Result<(), MarchError> {
+        check_start(lattice, node, time)?;
+        self.starts.insert(node);
+        self.offer(node, time);
+        Ok(())
     }
 
     /// Forgets the last march.
@@ -176,7 +202,17 @@ impl FastMarching {
         }
     }
 
-    fn march(&mut self, medium: &Medium<'_>) -> Result<(), MarchError> {
+    fn march<B>(
+        &mut self,
+        lattice: &Lattice,
+        speed: Speed<'_>,
+        options: MarchOptions,
+        mut visit: impl FnMut(usize, f64) -> ControlFlow<B>,
+    ) -> Result<Option<B>, MarchError> {
+        if let Speed::Field(speeds) = speed {
+            check_length(lattice, "speed", speeds.len())?;
+        }
+        let medium = Medium { axes: Axes::new(lattice), speed, options };
         while let Some((time, node)) = self.queue.pop() {
             if self.passed(node) {
                 continue;
@@ -187,9 +223,12 @@ impl FastMarching {
             }
             self.time[node] = time;
             self.order.push(node as u32);
-            self.update_neighbours(medium, node)?;
+            if let ControlFlow::Break(found) = visit(node, time) {
+                return Ok(Some(found));
+            }
+            self.update_neighbours(&medium, node)?;
         }
-        Ok(())
+        Ok(None)
     }
 
     /// Recomputes the times of the neighbours of a node that was just reached.

@@ -1,5 +1,7 @@
 //! Any update from neighbour to neighbour, in the order of a front.
 
+use std::ops::ControlFlow;
+
 use super::queue::TimeQueue;
 use super::{MarchError, check_start};
 use crate::{Edge, Lattice};
@@ -10,6 +12,9 @@ use crate::{Edge, Lattice};
 /// The node with the smallest time is taken, and the update is asked about each of its edges:
 /// it may change what the caller keeps for the neighbour, and says when the neighbour, now
 /// changed, is due. Listing 5.1 gives the new distance as that time, listing 5.2 gives 0.
+///
+/// A march costs what it visits, whatever the size of the lattice, and allocates nothing once
+/// the memory fits the lattice and the front.
 ///
 /// ```
 /// use landform_graph::marching::Front;
@@ -58,22 +63,41 @@ impl Front {
         &mut self,
         lattice: &Lattice,
         starts: &[(usize, f64)],
-        mut update: impl FnMut(usize, &Edge) -> Option<f64>,
+        update: impl FnMut(usize, &Edge) -> Option<f64>,
     ) -> Result<usize, MarchError> {
-        self.queue.clear();
-        self.due.clear();
-        self.due.resize(lattice.node_count(), f64::INFINITY);
+        let mut taken = 0;
+        self.search(lattice, starts, update, |_, _| {
+            taken += 1;
+            ControlFlow::<()>::Continue(())
+        })?;
+        Ok(taken)
+    }
+
+    /// As [`Front::march`], and `visit(node, time)` is told of every node that is taken, before
+    /// its edges: it may end the march with [`ControlFlow::Break`], whose value is returned.
+    ///
+    /// # Errors
+    /// As [`Front::march`].
+    pub fn search<B>(
+        &mut self,
+        lattice: &Lattice,
+        starts: &[(usize, f64)],
+        mut update: impl FnMut(usize, &Edge) -> Option<f64>,
+        mut visit: impl FnMut(usize, f64) -> ControlFlow<B>,
+    ) -> Result<Option<B>, MarchError> {
+        self.begin(lattice.node_count());
         for &(node, time) in starts {
             check_start(lattice, node, time)?;
             self.offer(node, time);
         }
-        let mut taken = 0;
         while let Some((time, node)) = self.queue.pop() {
             if time != self.due[node] {
                 continue;
             }
             self.due[node] = f64::INFINITY;
-            taken += 1;
+            if let ControlFlow::Break(found) = visit(node, time) {
+                return Ok(Some(found));
+            }
             for edge in lattice.neighbours(node) {
                 if let Some(time) = update(node, &edge) {
                     check_start(lattice, edge.node, time)?;
@@ -81,7 +105,15 @@ impl Front {
                 }
             }
         }
-        Ok(taken)
+        Ok(None)
+    }
+
+    /// Forgets a march that was ended before its time: only nodes of the queue are due.
+    fn begin(&mut self, nodes: usize) {
+        for node in self.queue.drain() {
+            self.due[node] = f64::INFINITY;
+        }
+        self.due.resize(nodes, f64::INFINITY);
     }
 
     #[inline]
@@ -103,9 +135,13 @@ mod tests {
 
     /// Distance over edges from `start`, by the front.
     fn path_lengths(lattice: &Lattice, start: usize) -> Vec<f64> {
+        path_lengths_by(&mut Front::new(), lattice, start)
+    }
+
+    fn path_lengths_by(front: &mut Front, lattice: &Lattice, start: usize) -> Vec<f64> {
         let mut length = vec![f64::INFINITY; lattice.node_count()];
         length[start] = 0.0;
-        let taken = Front::new().march(lattice, &[(start, 0.0)], |from, edge| {
+        let taken = front.march(lattice, &[(start, 0.0)], |from, edge| {
             let through = length[from] + edge.distance;
             (through < length[edge.node]).then(|| {
                 length[edge.node] = through;
@@ -162,6 +198,28 @@ mod tests {
             let least = sources.map(|source| weighted(node, source));
             assert_eq!(distance, least[0].min(least[1]), "node {node}");
         }
+    }
+
+    /// A march that ends early, or with an error, leaves nothing behind for the next.
+    #[test]
+    fn a_march_ends_when_told_and_the_next_starts_afresh() {
+        let lattice = Lattice::plane([9, 9], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
+        let mut front = Front::new();
+        let mut reached = vec![false; 81];
+        let mut spread = |_: usize, edge: &Edge| {
+            let first = !std::mem::replace(&mut reached[edge.node], true);
+            first.then_some(edge.node as f64)
+        };
+        let stop = |node, time| match node {
+            12 => ControlFlow::Break(time),
+            _ => ControlFlow::Continue(()),
+        };
+        assert_eq!(
+            front.search(&lattice, &[(0, 0.0), (40, 3.0)], &mut spread, stop),
+            Ok(Some(12.0))
+        );
+        assert!(front.march(&lattice, &[(1, 0.0)], |_, _| Some(f64::NAN)).is_err());
+        assert_eq!(path_lengths_by(&mut front, &lattice, 4), path_lengths(&lattice, 4));
     }
 
     #[test]

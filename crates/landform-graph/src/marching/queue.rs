@@ -19,10 +19,6 @@ fn in_order(bits: i64) -> i64 {
 }
 
 impl TimeQueue {
-    pub fn clear(&mut self) {
-        self.heap.clear();
-    }
-
     /// Adds a node, whose index fits 32 bits as in every lattice.
     #[inline]
     pub fn push(&mut self, time: f64, node: usize) {

@@ -20,8 +20,9 @@ const BUCKETS: usize = 64;
 ///
 /// Cost: that of the nodes whose values fall, each visited little more than once where costs
 /// vary by a few times; nothing else is touched, so that a local change costs what it
-/// reaches. Where some costs are thousands of times smaller than `width`, nodes of one bucket
-/// are visited several times, at no change of the result.
+/// reaches, and nothing is allocated once the memory fits the front. Where some costs are
+/// thousands of times smaller than `width`, nodes of one bucket are visited several times, at
+/// no change of the result.
 ///
 /// Limits: costs must not depend on the values that are relaxed, and when a cost rises the
 /// values that rested on it do not: reset them before relaxing again from around them.
@@ -120,7 +121,10 @@ impl Relaxation {
 
     /// Moves the buckets up to the lowest value that waits; false if none does.
     fn rebase(&mut self, values: &[f64], least_width: f64) -> bool {
-        let mut waiting = std::mem::take(&mut self.far);
+        // No bucket is being relaxed, so the memory of the frontier is free.
+        let mut waiting = std::mem::take(&mut self.frontier);
+        waiting.clear();
+        std::mem::swap(&mut waiting, &mut self.far);
         // A value that has fallen into the old buckets was relaxed with them.
         waiting.retain(|&node| self.bucket_of(values[node as usize]).is_none());
         let due = || waiting.iter().map(|&node| values[node as usize]);
@@ -131,7 +135,9 @@ impl Relaxation {
         for &node in &waiting {
             self.put(node, values[node as usize]);
         }
-        !waiting.is_empty()
+        let found = !waiting.is_empty();
+        self.frontier = waiting;
+        found
     }
 
     #[inline]
@@ -144,10 +150,11 @@ impl Relaxation {
 
     /// Empties a bucket into the frontier, in node order; false if the bucket was empty.
     fn take_frontier(&mut self, bucket: usize, values: &[f64]) -> bool {
-        self.frontier.clear();
-        std::mem::swap(&mut self.frontier, &mut self.buckets[bucket]);
-        let found = !self.frontier.is_empty();
         let mut frontier = std::mem::take(&mut self.frontier);
+        frontier.clear();
+        // Copied and not swapped, so that every bucket keeps the memory that it needs.
+        frontier.append(&mut self.buckets[bucket]);
+        let found = !frontier.is_empty();
         // A node whose value has fallen further was relaxed with a lower bucket.
         frontier.retain(|&node| self.bucket_of(values[node as usize]) == Some(bucket));
         frontier.sort_unstable();

@@ -73,7 +73,8 @@ pub fn presence<G: AgentGroup>(world: &World) -> Vec<f64> {
     presence
 }
 
-/// Makes staged deaths and then births of `G` real, in node order, stamped with `tick`.
+/// Makes staged deaths and then births of `G` real, stamped with `tick`. No two births are at
+/// one node, so their order does not matter.
 pub(crate) fn apply_staged<G: AgentGroup>(world: &mut World, tick: u32) {
     let mut states = world.query::<&mut AgentState<G>>();
     world.resource_scope::<Group<G>, ()>(|world, mut group| {
@@ -85,7 +86,6 @@ pub(crate) fn apply_staged<G: AgentGroup>(world: &mut World, tick: u32) {
         if group.births.is_empty() {
             return;
         }
-        group.births.sort_unstable_by_key(|&(node, _)| node);
         let Some(column) = states.contiguous_iter_mut(world).ok().and_then(|mut all| all.next())
         else {
             return;

@@ -50,8 +50,8 @@ impl NodeSet {
     }
 
     /// The nodes of the set in node order.
-    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.words.len()).flat_map(|index| bits(index, self.words[index]))
+    pub fn iter(&self) -> NodesOfSet<'_> {
+        NodesOfSet { words: self.words.iter(), word: 0, next: 0 }
     }
 
     /// Number of words of 64 nodes, for visits that change other parts of the group.
@@ -72,4 +72,29 @@ fn bits(index: usize, mut word: u64) -> impl Iterator<Item = usize> {
         word &= word.checked_sub(1)?;
         Some(index * 64 + bit)
     })
+}
+
+/// The nodes of a set in node order: see [`NodeSet::iter`].
+#[derive(Clone, Debug)]
+pub struct NodesOfSet<'a> {
+    words: std::slice::Iter<'a, u64>,
+    /// Bits that are left of the word before `next`.
+    word: u64,
+    /// Number of the first node of the next word.
+    next: usize,
+}
+
+impl Iterator for NodesOfSet<'_> {
+    type Item = usize;
+
+    #[inline]
+    fn next(&mut self) -> Option<usize> {
+        while self.word == 0 {
+            self.word = *self.words.next()?;
+            self.next += 64;
+        }
+        let bit = self.word.trailing_zeros() as usize;
+        self.word &= self.word - 1;
+        Some(self.next - 64 + bit)
+    }
 }

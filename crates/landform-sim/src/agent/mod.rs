@@ -3,14 +3,14 @@
 //! A group is a marker type. Its members live on the nodes: their state is a component of the
 //! node's entity, so lookups by node cost an array access, and membership is a bit set, so
 //! visits run in node order whatever happened before. Births, deaths and moves are staged and
-//! take effect, in node order, when the process that asked for them has finished its turn.
+//! take effect when the process that asked for them has finished its turn.
 
 mod group;
 mod members;
 mod view;
 
 pub use group::{AgentGroup, AgentState, Group, presence};
-pub use members::NodeSet;
+pub use members::{NodeSet, NodesOfSet};
 pub use view::{AgentView, Agents};
 
 pub(crate) use group::apply_staged;

@@ -48,6 +48,28 @@ fn distance_from_a_node_has_the_error_of_first_order() {
     }
 }
 
+/// The nearest of the wanted nodes over rough ground is the one of least time of a whole march,
+/// and a search that ended early leaves nothing behind.
+#[test]
+fn a_search_ends_at_the_earliest_node_that_is_wanted() {
+    let lattice = square(30, 29.0, Connectivity::Eight);
+    let speeds: Vec<f64> = (0..900).map(|node| 1.0 + f64::from(node * 37 % 11)).collect();
+    let speed = Speed::Field(&speeds);
+    let (starts, options) = ([(465, 0.0), (31, 2.0)], MarchOptions::default());
+    let all = FastMarching::new().solve(&lattice, speed, &starts, options).unwrap().time.to_vec();
+    let mut marching = FastMarching::new();
+    for kind in 50..60 {
+        let wanted = |node: usize| node % 61 == kind;
+        let found = marching.search(&lattice, speed, &starts, options, |node, time| {
+            if wanted(node) { ControlFlow::Break((time, node)) } else { ControlFlow::Continue(()) }
+        });
+        let times = all.iter().enumerate().filter(|&(node, _)| wanted(node));
+        let nearest = times.map(|(node, &time)| (time, node)).min_by(|a, b| a.0.total_cmp(&b.0));
+        assert_eq!(found, Ok(nearest));
+    }
+    assert_eq!(marching.solve(&lattice, speed, &starts, options).unwrap().time, all);
+}
+
 #[test]
 fn diagonal_edges_change_nothing() {
     let times = [Connectivity::Four, Connectivity::FourEight, Connectivity::Eight].map(|kind| {
