@@ -3,6 +3,7 @@
 mod bits;
 mod book;
 mod cuts;
+pub mod fuzzing;
 mod program;
 mod rasters;
 mod repository;

@@ -1,12 +1,12 @@
 //! One door for all raster formats.
 
-use std::fs::File;
-use std::io::Read;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use crate::{
-    Encoding, IfExists, IoError, Metadata, Raster, ReadLimits, SampleType, esri_ascii, geotiff,
-    npy, png16, raw,
+    Encoding, Fault, IfExists, IoError, Metadata, Raster, ReadLimits, SampleType, esri_ascii,
+    geotiff, npy, png16, raw,
 };
 
 /// A raster with all that its file says about it.
@@ -99,8 +99,31 @@ pub(crate) fn unknown(path: &Path, extension: &str, known: &'static str) -> IoEr
     IoError::UnknownFormat { path: path.into(), extension: extension.into(), known }
 }
 
+/// Text that stands beside a raster; `None` when there is none.
+pub(crate) fn text_beside(path: &Path) -> Result<Option<String>, IoError> {
+    const LONGEST: u64 = 1 << 24;
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
+    match read {
+        Ok(length) if length as u64 > LONGEST => {
+            let expected = format!("at most {LONGEST} bytes");
+            let fault = Fault::new("the text is too long", expected, "remove or repair the file");
+            Err(fault.reading(path))
+        }
+        Ok(_) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(IoError::system(path, "read", error)),
+    }
+}
+
 fn first_bytes(path: &Path) -> Result<Vec<u8>, IoError> {
     let system = |error| IoError::system(path, "read", error);
+    let kind = fs::metadata(path).map_err(system)?.file_type();
+    // Opening a pipe waits until somebody writes, and what is read of it once is gone.
+    if !kind.is_file() && !kind.is_dir() {
+        let fault = Fault::new("this is a pipe or a device", "a file", "save it to a file first");
+        return Err(fault.reading(path));
+    }
     let mut start = Vec::new();
     File::open(path).map_err(system)?.take(64).read_to_end(&mut start).map_err(system)?;
     Ok(start)

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::atomic::{IfExists, write_atomically};
+use crate::files::text_beside;
 use crate::{Fault, Georeference, IoError};
 
 /// What the values of a raster are and where they come from.
@@ -149,11 +150,7 @@ impl Sidecar {
     /// When it cannot be read, or is not a sidecar.
     pub fn read(path: &Path) -> Result<Option<Self>, IoError> {
         let sidecar = Self::path_of(path);
-        let text = match fs::read_to_string(&sidecar) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(IoError::system(&sidecar, "read", error)),
-        };
+        let Some(text) = text_beside(&sidecar)? else { return Ok(None) };
         serde_json::from_str(&text).map(Some).map_err(|error| {
             let advice = "repair it, or remove it to read the data without it";
             Fault::new(error.to_string(), "the sidecar of a raster", advice).reading(&sidecar)

@@ -134,8 +134,44 @@ fn absurd_sizes_are_refused_at_once() {
     );
     assert_says(
         &message(&folder, "b.tif", tiff_header(16_000)),
-        &["b.tif", "strip or tile 0", "cut off"],
+        &["b.tif", "134 bytes for 256000000 cells", "at least 500000 bytes", "cut off"],
     );
+    assert_says(&message(&folder, "c.tif", tiff_header(256)), &["strip or tile 0", "cut off"]);
+}
+
+/// The decoder quotes a whole tag in its message; ours stays short.
+#[test]
+fn a_tag_without_end_makes_no_message_without_end() {
+    let folder = Scratch::new("long_tag");
+    let mut bytes = tiff_header(256);
+    let end = bytes.len() as u32;
+    let entry = bytes.len() - 4 - 12;
+    // Thirty thousand sample formats, all unknown, behind the directory.
+    bytes.splice(entry + 2..entry + 4, 3_u16.to_le_bytes());
+    bytes.splice(entry + 4..entry + 8, 30_000_u32.to_le_bytes());
+    bytes.splice(entry + 8..entry + 12, end.to_le_bytes());
+    bytes.resize(bytes.len() + 60_000, 77);
+    let message = message(&folder, "a.tif", bytes);
+    assert!(message.contains("sample format") && message.len() < 600, "{message}");
+}
+
+/// Opening a pipe would wait for ever, and a device has no end.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_refused() {
+    let message = read_raster("/dev/zero").unwrap_err().to_string();
+    assert_says(&message, &["/dev/zero", "a pipe or a device", "save it to a file"]);
+}
+
+#[test]
+fn a_text_without_end_beside_a_raster_is_refused() {
+    let folder = Scratch::new("long_text");
+    fs::write(folder.path("a.asc"), format!("{HEADER}1 2 3\n4 5 6\n")).unwrap();
+    fs::write(folder.path("a.prj"), "EPSG:32611").unwrap();
+    assert!(read_raster(folder.path("a.asc")).is_ok());
+    fs::File::create(folder.path("a.prj")).unwrap().set_len(20 << 20).unwrap();
+    let message = read_raster(folder.path("a.asc")).unwrap_err().to_string();
+    assert_says(&message, &["a.prj", "too long", "at most 16777216 bytes"]);
 }
 
 /// The directory of a TIFF file that claims `side` x `side` doubles and holds no data.

@@ -1,12 +1,12 @@
 //! Grids from text.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use super::header::{self, Failure, cut_off, number};
 use super::tokens::Tokens;
-use crate::files::RasterFile;
+use crate::files::{RasterFile, text_beside};
 use crate::{
     CoordinateSystem, Encoding, Fault, IoError, Metadata, Place, Raster, ReadLimits, Sidecar,
 };
@@ -83,11 +83,8 @@ fn description(path: &Path) -> Result<(Metadata, CoordinateSystem), IoError> {
         return Ok((sidecar.metadata, system.unwrap_or_default()));
     }
     for extension in ["prj", "prj.txt"] {
-        let beside = path.with_extension(extension);
-        match fs::read_to_string(&beside) {
-            Ok(text) => return Ok((Metadata::default(), CoordinateSystem::from_text(&text))),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            Err(error) => return Err(IoError::system(&beside, "read", error)),
+        if let Some(text) = text_beside(&path.with_extension(extension))? {
+            return Ok((Metadata::default(), CoordinateSystem::from_text(&text)));
         }
     }
     Ok(Default::default())

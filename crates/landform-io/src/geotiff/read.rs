@@ -26,13 +26,16 @@ const TRANSFORMATION: Tag = Tag::ModelTransformationTag;
 /// [`IoError`]: no such file, damaged or cut off, more than one band, more cells than the
 /// limit, a rotated raster, or no cell with a number.
 pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
-    let file = File::open(path).map_err(|error| IoError::system(path, "read", error))?;
+    let system = |error| IoError::system(path, "read", error);
+    let file = File::open(path).map_err(system)?;
+    let length = file.metadata().map_err(system)?.len();
     let explain = |error| damage(error, Place::Whole).reading(path);
     let mut tiff = Decoder::new(BufReader::new(file)).map_err(explain)?;
     let (width, height) = tiff.dimensions().map_err(explain)?;
     let cells = limits.cells(path, &[width.into(), height.into()])?;
     tiff = tiff.with_limits(decoder_limits(cells));
     let fault = |fault: Fault| fault.reading(path);
+    check_length(&mut tiff, length, cells as u64).map_err(fault)?;
     let [width, height] = [width, height].map(|size| size as usize);
     let mut values = read_cells(&mut tiff, [width, height]).map_err(fault)?;
     let georeference = tags(&mut tiff).map_err(explain)?.georeference().map_err(fault)?;
@@ -41,6 +44,23 @@ pub fn read(path: &Path, limits: &ReadLimits) -> Result<RasterFile, IoError> {
     let raster = Raster { width, height, values, no_data: encoding.no_data, georeference };
     let raster = raster.checked().map_err(fault)?;
     Ok(RasterFile { raster, metadata, encoding })
+}
+
+/// More than any of the compressions that are read makes of a byte; 4096 is LZW's longest chain.
+const MOST_PACKED: u64 = 1 << 12;
+
+/// A file that is too short for its cells is known before memory is taken.
+fn check_length(tiff: &mut Tiff, length: u64, cells: u64) -> Result<(), Fault> {
+    let bits = tiff.find_tag_unsigned_vec::<u16>(Tag::BitsPerSample);
+    let bits = bits.map_err(|error| damage(error, Place::Whole))?.unwrap_or_default();
+    let bits = u64::from(bits.first().copied().unwrap_or(1).max(1));
+    let least = (cells.saturating_mul(bits) / 8).div_ceil(MOST_PACKED);
+    if length >= least {
+        return Ok(());
+    }
+    let problem = format!("the file has {length} bytes for {cells} cells");
+    let advice = "the file is cut off or its header is damaged: fetch or write it again";
+    Err(Fault::new(problem, format!("at least {least} bytes, even if packed well"), advice))
 }
 
 /// A strip may hold the whole image, but no more.
@@ -70,7 +90,9 @@ fn damage(error: TiffError, place: Place) -> Fault {
         }
         _ => ("a TIFF file", DAMAGED),
     };
-    Fault::new(error.to_string(), expected, advice).at(place)
+    // The decoder quotes whole tags, whatever their length.
+    let problem: String = error.to_string().chars().take(200).collect();
+    Fault::new(problem, expected, advice).at(place)
 }
 
 /// Columns and rows of a strip or tile.
