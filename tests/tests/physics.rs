@@ -19,13 +19,14 @@ struct SandAtRest {
 }
 
 impl Metric for SandAtRest {
+    type Memory = ();
     const NAME: &'static str = "SandAtRest";
 
     fn fields(&self) -> Vec<String> {
         vec!["surface".to_owned(), "sand".to_owned()]
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let field = |name| snapshot.field(name).map_err(|e| Problem::new("", e.to_string(), ""));
         let (surface, sand) = (field("surface")?, field("sand")?);
         let lattice = snapshot.lattice();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::field::{NodeField, stored_values};
 use crate::nodes::Space;
@@ -52,7 +52,7 @@ fn magnitude<F: NodeField<Value = f64>>(world: &World) -> f64 {
 }
 
 /// One account: what was there, what came, what went, what is there.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Account {
     /// Unit of the amounts.
     pub unit: String,
@@ -76,7 +76,7 @@ impl Account {
 }
 
 /// The accounts of a run by name.
-#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     accounts: BTreeMap<String, Account>,
 }

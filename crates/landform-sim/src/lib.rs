@@ -17,6 +17,7 @@
 //! registered from outside.
 
 pub mod agent;
+pub mod checkpoint;
 pub mod clock;
 pub mod domain;
 pub mod fault;

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::checkpoint::{Damage, Loader, Saver};
 use crate::parameters::{Parameters, Problem};
 use crate::snapshot::Snapshot;
 
@@ -22,7 +23,7 @@ pub enum Moment {
 }
 
 /// A file that an output wrote.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFile {
     /// Path, relative to the output folder.
     pub file: PathBuf,
@@ -57,7 +58,8 @@ pub trait Output: Parameters {
     fn open(&self) -> Box<dyn Sink>;
 }
 
-/// An output at work.
+/// An output at work. A run may be killed at any moment and go on from an earlier checkpoint: the
+/// files that it leaves must be the same.
 pub trait Sink {
     /// Looks at the run and writes what is due into `folder`. Returns the files that are
     /// finished; a file must never be left half-written.
@@ -70,4 +72,25 @@ pub trait Sink {
         snapshot: &Snapshot<'_>,
         folder: &Path,
     ) -> Result<Vec<OutputFile>, Problem>;
+
+    /// Saves what the sink remembers of earlier moments; a sink that remembers nothing saves
+    /// nothing. What it has written so far into files that are not finished goes to the disk
+    /// now: they lie in [`checkpoint::folder`](crate::checkpoint::folder), which stays until
+    /// the run is over.
+    ///
+    /// # Errors
+    /// The [`Problem`] names the file.
+    fn save<'a>(&'a mut self, to: &mut Saver<'_, 'a>) -> Result<(), Problem>;
+
+    /// Goes on from what was saved, in the place of a [`Moment::Start`]. What files hold beyond
+    /// the checkpoint is cut off.
+    ///
+    /// # Errors
+    /// What is missing or cannot be used.
+    fn restore(
+        &mut self,
+        from: &Loader<'_>,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<(), Damage>;
 }

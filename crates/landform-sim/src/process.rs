@@ -1,12 +1,15 @@
 //! What a process is: a struct of parameters that a scenario names and that is a Bevy plugin.
 
+use std::any::TypeId;
+
 use bevy_app::{App, Plugin};
 use bevy_ecs::resource::Resource;
 use bevy_ecs::schedule::ScheduleLabel;
 use bevy_ecs::world::World;
 use landform_graph::Lattice;
 
-use crate::agent::{AgentGroup, AgentState, Group, apply_staged};
+use crate::agent::{AgentGroup, AgentState, Group, apply_staged, restore_group, save_group};
+use crate::checkpoint::{Damage, Keep, Loader, Saver};
 use crate::field::{FieldEntry, NodeField};
 use crate::ledger::Budget;
 use crate::nodes::Node;
@@ -65,6 +68,7 @@ pub struct Declaration {
     pub(crate) fields: Vec<(FieldEntry, Access)>,
     pub(crate) groups: Vec<GroupEntry>,
     pub(crate) budgets: Vec<Budget>,
+    pub(crate) resources: Vec<ResourceEntry>,
     pub(crate) scratch: usize,
 }
 
@@ -106,6 +110,25 @@ impl Declaration {
         self
     }
 
+    /// The process keeps resource `R` between iterations, beside fields and groups. Checkpoints
+    /// save it, and a run that is resumed puts it in the place of what [`Begin`] made.
+    ///
+    /// Every resource that a plugin or its systems put into the world is named here or by
+    /// [`Declaration::rebuilds`]; the run is refused otherwise, since a resumed one would
+    /// forget it. A `Local` of a system is forgotten in any case: keep nothing in it.
+    pub fn keeps<R: Resource + Keep>(&mut self) -> &mut Self {
+        self.resources.push(ResourceEntry::kept::<R>());
+        self
+    }
+
+    /// The process has resource `R` to work with, which follows from parameters, lattice, seed
+    /// and fields: a run that is resumed runs [`Begin`] on the fields of the checkpoint to make
+    /// it anew. Nothing else may be remembered in it.
+    pub fn rebuilds<R: Resource>(&mut self) -> &mut Self {
+        self.resources.push(ResourceEntry::rebuilt::<R>());
+        self
+    }
+
     /// The process keeps a budget, which is checked after each of its turns.
     pub fn conserves(&mut self, budget: Budget) -> &mut Self {
         self.budgets.push(budget);
@@ -125,10 +148,52 @@ impl Declaration {
     }
 }
 
+/// Saves a part of the world into a checkpoint.
+pub(crate) type Save = for<'a> fn(&'a World, &mut Saver<'_, 'a>);
+
+/// Puts a part of a checkpoint into the world.
+pub(crate) type Restore = fn(&mut World, &Loader<'_>) -> Result<(), Damage>;
+
+/// A resource of a process without its type.
+#[derive(Clone, Copy)]
+pub(crate) struct ResourceEntry {
+    /// Type of the resource.
+    pub(crate) id: TypeId,
+    /// Name in checkpoints.
+    pub(crate) name: &'static str,
+    /// How it is saved and restored; `None` for what follows from everything else.
+    pub(crate) codec: Option<(Save, Restore)>,
+}
+
+impl ResourceEntry {
+    fn kept<R: Resource + Keep>() -> Self {
+        let save: Save = |world, to| {
+            if let Some(resource) = world.get_resource::<R>() {
+                resource.save(to);
+            }
+        };
+        let restore: Restore = |world, from| {
+            if !from.is_empty() {
+                world.insert_resource(R::restore(from)?);
+            }
+            Ok(())
+        };
+        Self { codec: Some((save, restore)), ..Self::rebuilt::<R>() }
+    }
+
+    fn rebuilt<R: Resource>() -> Self {
+        let path = std::any::type_name::<R>();
+        let name = path.rsplit("::").next().unwrap_or(path);
+        Self { id: TypeId::of::<R>(), name, codec: None }
+    }
+}
+
 /// An agent group without its type.
 #[derive(Clone, Copy)]
 pub(crate) struct GroupEntry {
     pub(crate) name: &'static str,
+    pub(crate) save: Save,
+    pub(crate) restore: Restore,
     pub(crate) bytes: usize,
     pub(crate) declare: fn(&mut World),
     pub(crate) make: fn(&mut World, usize),
@@ -139,6 +204,8 @@ impl GroupEntry {
     fn of<G: AgentGroup>() -> Self {
         Self {
             name: G::NAME,
+            save: save_group::<G>,
+            restore: restore_group::<G>,
             bytes: size_of::<G::State>() + 8 + Group::<G>::BYTES,
             declare: |world| world.register_required_components::<Node, AgentState<G>>(),
             make: |world, nodes| world.insert_resource(Group::<G>::new(nodes)),

@@ -84,13 +84,14 @@ impl Default for SteepGround {
 }
 
 impl Metric for SteepGround {
+    type Memory = ();
     const NAME: &'static str = "SteepGround";
 
     fn fields(&self) -> Vec<String> {
         vec!["bed".to_owned()]
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let Ok(bed) = snapshot.field("bed") else { return Ok(Vec::new()) };
         let lattice = snapshot.lattice();
         let limit = self.steeper_than_deg.to_radians().tan();

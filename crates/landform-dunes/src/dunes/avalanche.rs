@@ -16,6 +16,7 @@
 //! edge is steeper than repose (to 1e-11 in the tangent) unless its upper node is bare.
 
 use landform_graph::{Connectivity, Lattice};
+use serde::{Deserialize, Serialize};
 
 use super::AvalancheSettings;
 use super::plane::Plane;
@@ -25,7 +26,7 @@ use super::sweep::{Changes, Sweep};
 const TOLERANCE: f64 = 1e-11;
 
 /// What the avalanches of one pass did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AvalancheCounts {
     /// Rounds over all edges, the last one quiet.
     pub sweeps: u32,

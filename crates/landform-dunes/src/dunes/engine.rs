@@ -3,6 +3,7 @@
 use landform_graph::Lattice;
 use landform_sim::random::{RandomStream, unit};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::avalanche::{AvalancheCounts, Layers, settle};
 use super::error::{DuneError, check_length};
@@ -15,7 +16,7 @@ use super::wind::Directions;
 use super::{DuneSettings, Exposure, Shelter, TransportCounts, WindLine};
 
 /// What one tick did.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TickCounts {
     /// Slabs lifted, hopped, fed and lost.
     pub transport: TransportCounts,

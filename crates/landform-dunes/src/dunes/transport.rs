@@ -12,6 +12,7 @@
 
 use landform_sim::random::RandomStream;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::TransportSettings;
 use super::plane::Plane;
@@ -29,7 +30,7 @@ const SAND: u8 = 1;
 const SHELTERED: u8 = 2;
 
 /// What transport did in a tick or a sub-step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TransportCounts {
     /// Slabs that the wind lifted.
     pub lifts: u64,

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::dunes::TickCounts;
 
 /// What the process `Dunes` did in the latest iteration.
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Resource, Clone, Debug, Default, Serialize, Deserialize)]
 pub struct DuneCounts(pub TickCounts);
 
 /// What `Dunes` did in the latest iteration: slabs lifted, hops a lift, and the size of the
@@ -20,9 +20,10 @@ pub struct DuneCounts(pub TickCounts);
 pub struct DuneActivity {}
 
 impl Metric for DuneActivity {
+    type Memory = ();
     const NAME: &'static str = "DuneActivity";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let Some(DuneCounts(tick)) = snapshot.world().get_resource::<DuneCounts>() else {
             return Ok(Vec::new());
         };

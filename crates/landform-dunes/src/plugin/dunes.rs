@@ -132,6 +132,8 @@ impl Process for Dunes {
         };
         uses.reads_or_zero::<Bed>()
             .writes::<Sand>()
+            .keeps::<DuneCounts>()
+            .rebuilds::<DuneState>()
             .conserves(Budget::volume::<Sand>(1e-12))
             .scratch(ENGINE_BYTES + shelter_bytes);
     }

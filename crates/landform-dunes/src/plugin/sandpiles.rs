@@ -5,6 +5,7 @@ use bevy_ecs::change_detection::{Res, ResMut};
 use bevy_ecs::resource::Resource;
 use bevy_ecs::system::Commands;
 use landform_graph::{Connectivity, Lattice};
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
 use landform_sim::clock::Clock;
 use landform_sim::fault::Fault;
 use landform_sim::field::{Bed, FieldMut, NodeField, Sand, stored_values};
@@ -30,11 +31,26 @@ pub struct AvalancheRecord {
     pub sizes: SizeStatistics,
 }
 
+impl Keep for AvalancheRecord {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        to.value("events", &self.events);
+        to.keep("sizes", &self.sizes);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        Ok(Self { events: from.value("events")?, sizes: from.keep("sizes")? })
+    }
+}
+
 impl Process for SandLike {
     const NAME: &'static str = "SandLike";
 
     fn declare(&self, uses: &mut Declaration) {
-        uses.writes::<Sand>().conserves(Budget::volume::<Sand>(1e-12)).scratch(24);
+        uses.writes::<Sand>()
+            .keeps::<RestingSand>()
+            .keeps::<AvalancheRecord>()
+            .conserves(Budget::volume::<Sand>(1e-12))
+            .scratch(24);
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -51,8 +67,19 @@ impl Plugin for SandLike {
     }
 }
 
+/// Which sand is shaken.
 #[derive(Resource)]
 struct RestingSand(SandState);
+
+impl Keep for RestingSand {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        self.0.save(to);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        Keep::restore(from).map(Self)
+    }
+}
 
 fn rest_sand(
     mut commands: Commands,
@@ -84,7 +111,11 @@ impl Process for CorrosionLike {
     const NAME: &'static str = "CorrosionLike";
 
     fn declare(&self, uses: &mut Declaration) {
-        uses.writes::<Bed>().conserves(Budget::volume::<Bed>(1e-12)).scratch(16);
+        uses.writes::<Bed>()
+            .keeps::<Rock>()
+            .keeps::<AvalancheRecord>()
+            .conserves(Budget::volume::<Bed>(1e-12))
+            .scratch(16);
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -101,8 +132,19 @@ impl Plugin for CorrosionLike {
     }
 }
 
+/// What is left of the rock.
 #[derive(Resource)]
 struct Rock(CorrosionState);
+
+impl Keep for Rock {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        self.0.save(to);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        Keep::restore(from).map(Self)
+    }
+}
 
 fn fresh_rock(
     mut commands: Commands,
@@ -175,6 +217,8 @@ impl Process for Sandpile {
 
     fn declare(&self, uses: &mut Declaration) {
         uses.writes::<Grains>()
+            .keeps::<AvalancheRecord>()
+            .rebuilds::<Pile>()
             .conserves(Budget {
                 account: "grains",
                 unit: "1",
@@ -207,6 +251,7 @@ impl Plugin for Sandpile {
     }
 }
 
+/// The pile, which holds nothing that matters later but the grains of the field.
 #[derive(Resource)]
 struct Pile(AbelianSandpile);
 

@@ -2,6 +2,7 @@
 //! around.
 
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
 use landform_sim::random::{RandomStream, unit};
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -68,9 +69,31 @@ pub struct CorrosionState {
     pub removed: Vec<u32>,
     /// Events within the radius of each node since its uppermost block came to the surface.
     pub weakened: Vec<u32>,
+    seed: u64,
+    /// Made by the first step where it is missing.
+    work: Option<Work>,
+}
+
+/// What one step needs that none depends on.
+#[derive(Clone, Debug)]
+struct Work {
     stream: RandomStream,
     disc: Disc,
     events: Vec<u8>,
+}
+
+impl Keep for CorrosionState {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        to.array("removed", &self.removed);
+        to.array("weakened", &self.weakened);
+        to.value("seed", &self.seed);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        let removed = from.array("removed")?.to_vec();
+        let weakened = from.array_of("weakened", removed.len())?.to_vec();
+        Ok(Self { removed, weakened, seed: from.value("seed")?, work: None })
+    }
 }
 
 impl CorrosionLike {
@@ -96,9 +119,16 @@ impl CorrosionLike {
         Ok(CorrosionState {
             removed: vec![0; nodes],
             weakened: vec![0; nodes],
+            seed,
+            work: Some(self.work(lattice, seed)?),
+        })
+    }
+
+    fn work(&self, lattice: &Lattice, seed: u64) -> Result<Work, SandpileError> {
+        Ok(Work {
             stream: RandomStream::new(seed, "rock resistance"),
             disc: Disc::new(lattice, self.radius_m)?,
-            events: vec![0; nodes],
+            events: vec![0; lattice.node_count()],
         })
     }
 
@@ -117,7 +147,11 @@ impl CorrosionLike {
         if heights.len() != sites || state.removed.len() != sites {
             return Err(SandpileError::Length { values: heights.len(), sites });
         }
-        let CorrosionState { removed, weakened, stream, disc, events } = state;
+        let CorrosionState { removed, weakened, seed, work } = state;
+        let Work { stream, disc, events } = match work {
+            Some(work) => work,
+            None => work.insert(self.work(lattice, *seed)?),
+        };
         let per_event = self.avalanching / disc.area() as f64;
         let ground: &[f64] = heights;
         events.par_iter_mut().enumerate().for_each(|(node, event)| {

@@ -1,6 +1,7 @@
 //! The sand-like model of figure 3.1: slopes that slip and shake the slopes around.
 
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,11 +62,28 @@ pub struct SandState {
     /// Number of slips of the last iteration within the radius of each node. This is all that
     /// a later iteration depends on.
     pub shaken: Vec<u32>,
+    /// Made by the first step where it is missing.
+    work: Option<Work>,
+}
+
+/// What one step needs that none depends on.
+#[derive(Clone, Debug)]
+struct Work {
     disc: Disc,
     rises: [f64; 2],
     targets: Vec<u32>,
     givers: Vec<u32>,
     slipped: Vec<u8>,
+}
+
+impl Keep for SandState {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        to.array("shaken", &self.shaken);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        Ok(Self { shaken: from.array("shaken")?.to_vec(), work: None })
+    }
 }
 
 impl SandLike {
@@ -89,10 +107,14 @@ impl SandLike {
         if !(1..=1000).contains(&self.slabs_together) {
             return refuse("slabs_together", self.slabs_together.into(), "from 1 to 1000");
         }
+        let shaken = vec![0; lattice.node_count()];
+        Ok(SandState { shaken, work: Some(self.work(lattice)?) })
+    }
+
+    fn work(&self, lattice: &Lattice) -> Result<Work, SandpileError> {
         let nodes = lattice.node_count();
-        Ok(SandState {
+        Ok(Work {
             disc: Disc::new(lattice, self.radius_m)?,
-            shaken: vec![0; nodes],
             rises: [self.repose_deg, self.shaken_deg].map(|angle| angle.to_radians().tan()),
             targets: vec![NOBODY; nodes],
             givers: vec![NOBODY; nodes],
@@ -116,24 +138,35 @@ impl SandLike {
             return Err(SandpileError::Length { values: heights.len(), sites });
         }
         let thickness = self.slab_m * f64::from(self.slabs_together);
-        state.choose_targets(lattice, heights, thickness);
-        state.choose_givers(lattice, heights);
-        let SandState { targets, givers, .. } = &*state;
+        let SandState { shaken, work } = state;
+        let work = match work {
+            Some(work) => work,
+            None => work.insert(self.work(lattice)?),
+        };
+        work.choose_targets(lattice, heights, thickness, shaken);
+        work.choose_givers(lattice, heights);
+        let Work { targets, givers, .. } = &*work;
         heights.par_iter_mut().enumerate().for_each(|(node, height)| {
             let target = targets[node];
             let gives = target != NOBODY && givers[target as usize] == node as u32;
             let takes = givers[node] != NOBODY;
             *height += thickness * (f64::from(u8::from(takes)) - f64::from(u8::from(gives)));
         });
-        Ok(state.shake(lattice))
+        Ok(work.shake(lattice, shaken))
     }
 }
 
-impl SandState {
+impl Work {
     /// Finds the nodes that are too steep and where each would slip to.
-    fn choose_targets(&mut self, lattice: &Lattice, heights: &[f64], thickness: f64) {
-        let Self { shaken, targets, rises, .. } = self;
-        targets.par_iter_mut().zip(&*shaken).enumerate().for_each(|(node, (target, shaken))| {
+    fn choose_targets(
+        &mut self,
+        lattice: &Lattice,
+        heights: &[f64],
+        thickness: f64,
+        shaken: &[u32],
+    ) {
+        let Self { targets, rises, .. } = self;
+        targets.par_iter_mut().zip(shaken).enumerate().for_each(|(node, (target, shaken))| {
             let mut steepest = if *shaken > 0 { rises[1] } else { rises[0] };
             *target = NOBODY;
             for edge in lattice.neighbours(node) {
@@ -163,14 +196,14 @@ impl SandState {
     }
 
     /// Marks what the slips shake and returns their number.
-    fn shake(&mut self, lattice: &Lattice) -> usize {
+    fn shake(&mut self, lattice: &Lattice, shaken: &mut [u32]) -> usize {
         let Self { targets, givers, slipped, .. } = self;
         slipped.par_iter_mut().enumerate().for_each(|(node, slipped)| {
             let target = targets[node];
             *slipped = u8::from(target != NOBODY && givers[target as usize] == node as u32);
         });
-        self.shaken.fill(0);
-        self.disc.add_events(lattice, &self.slipped, &mut self.shaken);
+        shaken.fill(0);
+        self.disc.add_events(lattice, &self.slipped, shaken);
         self.slipped.iter().filter(|&&slipped| slipped == 1).count()
     }
 }

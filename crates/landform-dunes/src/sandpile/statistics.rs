@@ -1,5 +1,7 @@
 //! How avalanches are spread over sizes.
 
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
+
 /// Counts of avalanches by their size, area or duration, in bins that double: 1, 2-3, 4-7 ...
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SizeStatistics {
@@ -24,6 +26,21 @@ pub struct SizeBin {
     pub count: u64,
     /// Share of all avalanches, those of size 0 included, for each whole size in the bin.
     pub density: f64,
+}
+
+impl Keep for SizeStatistics {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        to.array("bins", &self.bins);
+        let total = [self.total as u64, (self.total >> 64) as u64];
+        to.value("other", &(self.none, total, self.largest));
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        let mut bins = [0; 64];
+        bins.copy_from_slice(from.array_of("bins", 64)?);
+        let (none, [low, high], largest): (u64, [u64; 2], u64) = from.value("other")?;
+        Ok(Self { bins, none, total: u128::from(high) << 64 | u128::from(low), largest })
+    }
 }
 
 impl SizeStatistics {

@@ -4,15 +4,18 @@ use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::component::Component;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::NodeSet;
+use crate::checkpoint::Keep;
 
 /// A group of agents, at most one at a node. Implement it for an empty marker type.
 pub trait AgentGroup: Send + Sync + 'static {
-    /// What each agent knows.
-    type State: Copy + Default + Send + Sync + 'static;
+    /// What each agent knows. Derive serde's `Serialize` and `Deserialize` for checkpoints.
+    type State: Serialize + DeserializeOwned + Copy + Default + Send + Sync + 'static;
     /// What the whole group knows (search radius, largest value met, ...).
-    type Globals: Default + Send + Sync + 'static;
+    type Globals: Keep + Default + Send + Sync + 'static;
     /// Name of the group in reports.
     const NAME: &'static str;
 }

@@ -7,6 +7,7 @@
 
 mod group;
 mod members;
+mod state;
 mod view;
 
 pub use group::{AgentGroup, AgentState, Group, presence};
@@ -14,6 +15,7 @@ pub use members::{NodeSet, NodesOfSet};
 pub use view::{AgentView, Agents};
 
 pub(crate) use group::apply_staged;
+pub(crate) use state::{restore_group, save_group};
 
 #[cfg(test)]
 mod tests;

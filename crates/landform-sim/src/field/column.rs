@@ -4,8 +4,10 @@ use bevy_ecs::component::Component;
 use bytemuck::TransparentWrapper;
 use rayon::prelude::*;
 
+use crate::checkpoint::Element;
+
 /// A type of number that a field may hold at a node.
-pub trait Number: Copy + Default + Send + Sync + 'static {
+pub trait Number: Element + Default {
     /// The number as a double, for pictures, files and metrics.
     fn to_f64(self) -> f64;
 

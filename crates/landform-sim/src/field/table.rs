@@ -2,6 +2,7 @@
 
 use std::any::TypeId;
 
+use bevy_ecs::change_detection::ContiguousMut;
 use bevy_ecs::resource::Resource;
 use bevy_ecs::world::World;
 use bytemuck::TransparentWrapper;
@@ -9,6 +10,8 @@ use thiserror::Error;
 
 use super::param::one_slice;
 use super::{Bed, Column, NodeField, Number, Sand};
+use crate::checkpoint::{Damage, Loader, Saver};
+use crate::process::{Restore, Save};
 
 /// A name that is no field of the run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -36,6 +39,7 @@ pub struct FieldEntry {
     marker: Option<TypeId>,
     read: fn(&World) -> Vec<f64>,
     write: Option<fn(&mut World, &[f64])>,
+    codec: Option<(Save, Restore)>,
     finite: fn(&World) -> bool,
     declare: fn(&mut World),
 }
@@ -55,6 +59,7 @@ impl FieldEntry {
             marker: Some(TypeId::of::<F>()),
             read: read_column::<F>,
             write: Some(write_column::<F>),
+            codec: Some((save_column::<F>, restore_column::<F>)),
             finite: |world| F::Value::all_finite(stored_values::<F>(world)),
             declare: |world| {
                 world.register_required_components::<crate::nodes::Node, Column<F>>();
@@ -78,6 +83,7 @@ impl FieldEntry {
             marker: None,
             read,
             write: None,
+            codec: None,
             finite: |_| true,
             declare: |_| {},
         }
@@ -91,6 +97,18 @@ impl FieldEntry {
     /// Replaces the values; a derived field stays as it is and `false` is returned.
     pub fn write(&self, world: &mut World, values: &[f64]) -> bool {
         self.write.map(|write| write(world, values)).is_some()
+    }
+
+    /// Saves the stored values; derived ones follow from others.
+    pub(crate) fn save<'a>(&self, world: &'a World, to: &mut Saver<'_, 'a>) {
+        if let Some((save, _)) = self.codec {
+            save(world, &mut to.below(self.name));
+        }
+    }
+
+    /// Replaces the stored values by those that were saved.
+    pub(crate) fn restore(&self, world: &mut World, from: &Loader<'_>) -> Result<(), Damage> {
+        self.codec.map_or(Ok(()), |(_, restore)| restore(world, &from.below(self.name)))
     }
 
     /// Whether all stored values are finite; derived fields are not looked at.
@@ -175,10 +193,25 @@ pub fn stored_values<F: NodeField>(world: &World) -> &[F::Value] {
 }
 
 fn write_column<F: NodeField>(world: &mut World, values: &[f64]) {
+    change_column::<F>(world, |column| {
+        column.iter_mut().zip(values).for_each(|(slot, &value)| *slot = F::Value::from_f64(value));
+    });
+}
+
+fn save_column<'a, F: NodeField>(world: &'a World, to: &mut Saver<'_, 'a>) {
+    to.array("", stored_values::<F>(world));
+}
+
+fn restore_column<F: NodeField>(world: &mut World, from: &Loader<'_>) -> Result<(), Damage> {
+    let values = from.array_of("", stored_values::<F>(world).len())?;
+    change_column::<F>(world, |column| column.copy_from_slice(values));
+    Ok(())
+}
+
+fn change_column<F: NodeField>(world: &mut World, change: impl FnOnce(&mut [F::Value])) {
     let mut query = world.query::<&mut Column<F>>();
     let columns = query.contiguous_iter_mut(world).ok().into_iter().flatten();
     let Some(column) = one_slice::<F, _>(columns) else { return };
-    let column = bevy_ecs::change_detection::ContiguousMut::bypass_change_detection_split(column).0;
-    let column: &mut [F::Value] = TransparentWrapper::peel_slice_mut(column);
-    column.iter_mut().zip(values).for_each(|(slot, &value)| *slot = F::Value::from_f64(value));
+    let column = ContiguousMut::bypass_change_detection_split(column).0;
+    change(TransparentWrapper::peel_slice_mut(column));
 }

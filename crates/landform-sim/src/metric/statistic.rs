@@ -70,13 +70,14 @@ impl Default for FieldStatistic {
 }
 
 impl Metric for FieldStatistic {
+    type Memory = ();
     const NAME: &'static str = "FieldStatistic";
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let unknown = |error: crate::field::UnknownField| {
             Problem::new("field", error.to_string(), "a field of the run")
         };

@@ -9,11 +9,10 @@ use serde_json::Value;
 use super::{Kind, Registry};
 use crate::domain::{Domain, DomainSource};
 use crate::initial::{InitialCondition, InitialContext};
-use crate::metric::Metric;
+use crate::metric::{Meter, Metric, Opened};
 use crate::output::{Output, Sink};
 use crate::parameters::{Parameters, Problem, check};
-use crate::process::{Declaration, Process};
-use crate::snapshot::Snapshot;
+use crate::process::{Declaration, Process, Settings};
 
 /// Parameters without their type.
 pub trait AnyParameters {
@@ -121,6 +120,7 @@ impl<P: Process> AnyProcess for P {
     fn declaration(&self) -> Declaration {
         let mut declaration = Declaration::default();
         self.declare(&mut declaration);
+        declaration.rebuilds::<Settings<P>>();
         declaration
     }
 
@@ -148,11 +148,8 @@ pub trait AnyMetric: AnyParameters {
     /// As the metric says.
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem>;
 
-    /// See [`Metric::measure`].
-    ///
-    /// # Errors
-    /// As the metric says.
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem>;
+    /// The metric at work, with nothing to remember so far.
+    fn open(&self) -> Box<dyn Meter>;
 }
 
 impl<M: Metric> AnyMetric for M {
@@ -164,8 +161,8 @@ impl<M: Metric> AnyMetric for M {
         Metric::validate(self, lattice)
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        Metric::measure(self, snapshot)
+    fn open(&self) -> Box<dyn Meter> {
+        Box::new(Opened { metric: self.clone(), memory: M::Memory::default() })
     }
 }
 

@@ -86,9 +86,10 @@ impl InitialCondition for Uniform {
 struct Total {}
 
 impl Metric for Total {
+    type Memory = ();
     const NAME: &'static str = "Total";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let sand = snapshot.field("sand").map_err(|e| Problem::new("", e.to_string(), ""))?;
         Ok(vec![("total_m".to_owned(), sum(&sand))])
     }
@@ -175,7 +176,7 @@ fn the_hook_can_end_the_run() {
         _ => std::ops::ControlFlow::Continue(()),
     };
     let result = build(GOOD).expect("builds").run(Path::new("."), &mut hook, &mut report);
-    assert_eq!(result, Err(RunError::Interrupted { iterations: 1 }));
+    assert_eq!(result, Err(RunError::Interrupted { iterations: 1, kept: false }));
 }
 
 #[test]

@@ -6,20 +6,21 @@ use bevy_app::App;
 use bevy_ecs::world::World;
 use landform_graph::Lattice;
 
-use super::memory;
+use super::checkpoint::Resumed;
+use super::state::State;
+use super::{Keeper, memory};
 use crate::clock::Clock;
 use crate::domain::Domain;
 use crate::fault::Fault;
 use crate::field::{Bed, FieldEntry, FieldTable, NodeField, Sand, surface};
 use crate::initial::InitialContext;
 use crate::ledger::Ledger;
-use crate::metric::Series;
+use crate::metric::{Meter, Series};
 use crate::nodes::spawn_nodes;
 use crate::output::Sink;
 use crate::parameters::Problem;
 use crate::process::{Access, Declaration, GroupEntry};
 use crate::random::RandomStream;
-use crate::registry::{AnyMetric, Chosen};
 use crate::scenario::validate::below;
 use crate::scenario::{Scenario, StageEntry};
 use crate::text::nearest;
@@ -44,11 +45,15 @@ pub struct Simulation {
     pub(super) domain: Domain,
     pub(super) title: String,
     pub(super) stages: Vec<StageEntry>,
-    pub(super) metrics: Vec<Chosen<dyn AnyMetric>>,
+    pub(super) metrics: Vec<(&'static str, Box<dyn Meter>)>,
     pub(super) measure_every: u64,
     pub(super) sinks: Vec<(&'static str, Box<dyn Sink>)>,
     pub(super) series: Series,
     pub(super) warnings: Vec<String>,
+    pub(super) state: State,
+    pub(super) keeper: Option<Box<dyn Keeper>>,
+    pub(super) resumed: Option<Resumed>,
+    pub(super) start: String,
 }
 
 impl Simulation {
@@ -70,6 +75,7 @@ impl Simulation {
         world.insert_resource(Ledger::default());
         world.insert_resource(Fault::default());
         fill(&mut app, &scenario, &domain, folder)?;
+        let state = State::new(app.world(), groups, &uses)?;
 
         Ok(Self {
             app,
@@ -78,9 +84,13 @@ impl Simulation {
             title: scenario.title,
             sinks: scenario.outputs.iter().map(|each| (each.name, each.value.open())).collect(),
             stages: scenario.stages,
-            metrics: scenario.metrics,
+            metrics: scenario.metrics.iter().map(|each| (each.name, each.value.open())).collect(),
             measure_every: scenario.measure_every,
             series: Series::default(),
+            state,
+            keeper: None,
+            resumed: None,
+            start: String::new(),
         })
     }
 

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::checkpoint::Damage;
 use crate::parameters::Problem;
 
 /// Why a run stopped before its end.
@@ -77,9 +78,14 @@ pub enum RunError {
         /// Why.
         problem: Problem,
     },
+    /// A checkpoint does not fit what the processes keep.
+    #[error("the run cannot go on: {0}")]
+    Damaged(#[from] Damage),
     /// The progress hook asked for the end.
     #[error("interrupted after {iterations} iterations")]
     Interrupted {
+        /// Whether a checkpoint was kept, from which the run can go on.
+        kept: bool,
         /// Iterations that were finished.
         iterations: u64,
     },

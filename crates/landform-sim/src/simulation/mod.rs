@@ -1,6 +1,7 @@
 //! Running a scenario: from its parts to a report.
 
 mod build;
+mod checkpoint;
 mod error;
 mod guard;
 mod memory;
@@ -8,10 +9,12 @@ mod progress;
 mod report;
 mod run;
 mod stage;
+mod state;
 mod turn;
 
 pub(crate) use build::check;
 pub use build::{Limits, Simulation};
+pub use checkpoint::Keeper;
 pub use error::RunError;
 pub use progress::{Progress, ProgressHook};
 pub use report::{Report, StageReport};

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::ledger::Ledger;
 use crate::output::OutputFile;
 
 /// Summary of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Title of the scenario.
     pub title: String,
@@ -22,6 +22,8 @@ pub struct Report {
     pub nodes: usize,
     /// Distance of neighbouring nodes in metres.
     pub spacing_m: f64,
+    /// Whether the run came to its end.
+    pub finished: bool,
     /// Threads that the run could use.
     pub threads: usize,
     /// Seconds that the run took, without building it.
@@ -41,7 +43,7 @@ pub struct Report {
 }
 
 /// Summary of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StageReport {
     /// Name of the stage.
     pub name: String,

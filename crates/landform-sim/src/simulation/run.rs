@@ -1,16 +1,19 @@
 //! The loop: stages, iterations, measurements, outputs, stop rules.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
+use bevy_ecs::world::World;
+
+use super::checkpoint::Resumed;
 use super::stage;
 use super::turn::Turn;
 use super::{Progress, ProgressHook, Report, RunError, Simulation, StageReport};
 use crate::clock::Clock;
 use crate::output::{Moment, OutputFile};
 use crate::parameters::Problem;
+use crate::scenario::StageEntry;
 use crate::snapshot::Snapshot;
 use crate::text::nearest;
 
@@ -28,7 +31,8 @@ impl Simulation {
         let start = Instant::now();
         let result = self.run_stages(folder, hook, report);
         self.summarise(report);
-        report.seconds = start.elapsed().as_secs_f64();
+        report.seconds += start.elapsed().as_secs_f64();
+        report.finished = result.is_ok();
         result
     }
 
@@ -45,48 +49,50 @@ impl Simulation {
         hook: &mut dyn ProgressHook,
         report: &mut Report,
     ) -> Result<(), RunError> {
-        self.measure()?;
-        report.initial_metrics = self.latest_metrics();
-        report.outputs.extend(self.observe(Moment::Start, folder)?);
-        for stage in 0..self.stages.len() {
-            let mut clock = self.app.world_mut().resource_mut::<Clock>();
-            (clock.stage, clock.iteration) = (stage, 0);
-            let start = Instant::now();
-            report.stages.push(StageReport {
-                name: self.stages[stage].name.clone(),
-                processes: names(&self.stages[stage]),
-                ..StageReport::default()
-            });
-            let result = self.run_stage(stage, folder, hook, report);
-            let metrics = self.latest_metrics();
-            if let Some(summary) = report.stages.last_mut() {
-                summary.iterations = self.app.world().resource::<Clock>().iteration;
-                summary.seconds = start.elapsed().as_secs_f64();
-                summary.metrics = metrics;
-                summary.stopped = match &result {
-                    Ok(reason) => reason.clone(),
-                    Err(error) => error.to_string(),
-                };
+        let mut resumed = self.resumed.take();
+        let first = resumed.as_ref().map_or(0, Resumed::stage);
+        match &mut resumed {
+            Some(resumed) => *report = std::mem::take(&mut resumed.report),
+            None => {
+                self.measure()?;
+                report.initial_metrics = self.latest_metrics();
+                report.outputs.extend(self.observe(Moment::Start, folder)?);
             }
-            result?;
+        }
+        let mut within = resumed.filter(Resumed::is_within_stage);
+        for stage in first..self.stages.len() {
+            let result = self.run_stage(stage, within.take(), folder, hook, report);
+            let reason = match result {
+                Ok(reason) => reason,
+                Err(error) => {
+                    self.close_stage(report, error.to_string());
+                    return Err(error);
+                }
+            };
+            self.close_stage(report, reason);
+            self.tell(stage, true, hook, report)?;
         }
         report.outputs.extend(self.observe(Moment::End, folder)?);
         Ok(())
     }
 
-    /// Runs one stage and says why it was over.
+    /// Runs one stage, from `resumed` on if it is given, and says why it was over.
     fn run_stage(
         &mut self,
         stage: usize,
+        resumed: Option<Resumed>,
         folder: &Path,
         hook: &mut dyn ProgressHook,
         report: &mut Report,
     ) -> Result<String, RunError> {
+        let mut turns = match resumed {
+            Some(resumed) => self.begin_again(&resumed)?,
+            None => self.begin(stage, report)?,
+        };
         let ends = self.stages[stage].ends();
-        let expected = self.stages[stage].stop.latest_end(&ends);
-        let mut turns = stage::begin(&mut self.app, &self.stages[stage].processes)?;
-        self.tell(stage, 0, expected, hook)?;
+        self.tell(stage, false, hook, report)?;
         loop {
+            let start = Instant::now();
             let iteration = self.iterate(&mut turns)?;
             let reason = |run: &Self| run.stages[stage].stop.reason(iteration, &ends, &run.series);
             // A rule on a metric looks at fresh measurements only.
@@ -95,15 +101,51 @@ impl Simulation {
                 self.check_rule(stage)?;
             }
             report.outputs.extend(self.observe(Moment::Iteration, folder)?);
-            if let Some(reason) = reason(self) {
+            let reason = reason(self);
+            if reason.is_some() {
                 if !due {
                     self.measure()?;
                 }
                 report.outputs.extend(self.observe(Moment::StageEnd, folder)?);
-                self.tell(stage, iteration, expected, hook)?;
-                return Ok(reason);
             }
-            self.tell(stage, iteration, expected, hook)?;
+            if let Some(summary) = report.stages.last_mut() {
+                summary.seconds += start.elapsed().as_secs_f64();
+            }
+            match reason {
+                Some(reason) => return Ok(reason),
+                None => self.tell(stage, false, hook, report)?,
+            }
+        }
+    }
+
+    /// Begins a stage.
+    fn begin(&mut self, stage: usize, report: &mut Report) -> Result<Vec<Turn>, RunError> {
+        let mut clock = self.app.world_mut().resource_mut::<Clock>();
+        (clock.stage, clock.iteration) = (stage, 0);
+        report.stages.push(StageReport {
+            name: self.stages[stage].name.clone(),
+            processes: names(&self.stages[stage]),
+            ..StageReport::default()
+        });
+        stage::begin(&mut self.app, &self.stages[stage].processes, &self.state, |_| Ok(()))
+    }
+
+    /// Begins the stage of a checkpoint once more, for what follows from the fields, and puts the
+    /// state of the checkpoint in its place.
+    fn begin_again(&mut self, resumed: &Resumed) -> Result<Vec<Turn>, RunError> {
+        let Self { app, stages, state, .. } = self;
+        let prepare = |world: &mut World| resumed.prepare(state, world);
+        let turns = stage::begin(app, &stages[resumed.stage()].processes, state, prepare)?;
+        resumed.restore(state, app.world_mut())?;
+        Ok(turns)
+    }
+
+    /// Completes the report of the stage at hand.
+    fn close_stage(&self, report: &mut Report, reason: String) {
+        if let Some(summary) = report.stages.last_mut() {
+            summary.iterations = self.app.world().resource::<Clock>().iteration;
+            summary.metrics = self.latest_metrics();
+            summary.stopped = reason;
         }
     }
 
@@ -115,26 +157,44 @@ impl Simulation {
         Ok(clock.iteration)
     }
 
+    /// Tells the hook where the run stands, and keeps a checkpoint when one is due or the run is to
+    /// end here.
     fn tell(
-        &self,
+        &mut self,
         stage: usize,
-        iteration: u64,
-        iterations: Option<u64>,
+        stage_is_over: bool,
         hook: &mut dyn ProgressHook,
+        report: &Report,
     ) -> Result<(), RunError> {
+        let clock = *self.app.world().resource::<Clock>();
+        let stages = self.stages.len();
+        let entry = &self.stages[stage];
         let progress = Progress {
             stage,
-            stages: self.stages.len(),
-            stage_name: &self.stages[stage].name,
-            iteration,
-            iterations,
+            stages,
+            stage_name: &entry.name,
+            iteration: clock.iteration,
+            iterations: entry.stop.latest_end(&entry.ends()),
         };
-        match hook.progress(&progress) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => {
-                Err(RunError::Interrupted { iterations: self.app.world().resource::<Clock>().tick })
-            }
+        let ends = hook.progress(&progress).is_break();
+        let due = self.keeper.as_mut().is_some_and(|keeper| keeper.is_due(&progress) || ends);
+        let kept = due && self.keep(stage_is_over, report)?;
+        match ends {
+            true => Err(RunError::Interrupted { iterations: clock.tick, kept }),
+            false => Ok(()),
         }
+    }
+
+    /// Keeps a checkpoint; `false` when that was impossible.
+    fn keep(&mut self, stage_is_over: bool, report: &Report) -> Result<bool, RunError> {
+        let Some(mut keeper) = self.keeper.take() else { return Ok(false) };
+        let kept = keeper.keep(self.checkpoint(stage_is_over, report)?);
+        self.keeper = Some(keeper);
+        let Err(message) = kept else { return Ok(true) };
+        if !self.warnings.contains(&message) {
+            self.warnings.push(message);
+        }
+        Ok(false)
     }
 
     /// Refuses a stop rule on a metric that nothing measures, once every metric has spoken.
@@ -160,12 +220,12 @@ impl Simulation {
         let snapshot = self.snapshot();
         let mut row = Vec::new();
         let mut measured = Ok(true);
-        for metric in &mut metrics {
-            match metric.value.measure(&snapshot) {
+        for (name, meter) in &mut metrics {
+            match meter.measure(&snapshot) {
                 Ok(values) if values.is_empty() => measured = Ok(false),
                 Ok(values) => row.extend(values),
                 Err(problem) => {
-                    measured = Err(recording(metric.name, problem));
+                    measured = Err(recording(name, problem));
                     break;
                 }
             }
@@ -215,7 +275,8 @@ impl Simulation {
     }
 }
 
-fn names(stage: &crate::scenario::StageEntry) -> Vec<String> {
+/// Names of the processes of a stage.
+pub(super) fn names(stage: &StageEntry) -> Vec<String> {
     stage.processes.iter().map(|process| process.name.to_owned()).collect()
 }
 

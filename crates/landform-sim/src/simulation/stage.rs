@@ -2,7 +2,9 @@
 
 use bevy_app::App;
 use bevy_ecs::schedule::{LogLevel, Schedule, ScheduleBuildSettings, ScheduleLabel, Schedules};
+use bevy_ecs::world::World;
 
+use super::state::State;
 use super::turn::Turn;
 use super::{RunError, guard};
 use crate::clock::Clock;
@@ -10,12 +12,18 @@ use crate::process::{Access, Begin, Iterate};
 use crate::registry::{AnyProcess, Chosen};
 
 /// Adds the processes of a stage to the app and runs their [`Begin`] systems.
+///
+/// `prepare` puts the world into the state that `Begin` is to see: a run that is resumed shows it
+/// the fields of the checkpoint.
 pub(super) fn begin(
     app: &mut App,
     processes: &[Chosen<dyn AnyProcess>],
+    state: &State,
+    prepare: impl Fn(&mut World) -> Result<(), RunError>,
 ) -> Result<Vec<Turn>, RunError> {
     let mut turns = Vec::with_capacity(processes.len());
     for process in processes {
+        prepare(app.world_mut())?;
         app.init_schedule(Begin).init_schedule(Iterate);
         process.value.build(app);
         let mut begin = take(app, Begin, process.name)?;
@@ -30,6 +38,7 @@ pub(super) fn begin(
             iterate,
         };
         begin.run(app.world_mut());
+        state.check(app.world(), process.name)?;
         apply_groups(app, &turn, 0);
         guard::open_budgets(app.world_mut(), &turn);
         guard::check(app.world_mut(), &turn)?;

@@ -23,13 +23,14 @@ impl Default for SpectralFalloff {
 }
 
 impl Metric for SpectralFalloff {
+    type Memory = ();
     const NAME: &'static str = "SpectralFalloff";
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let refuse = |message: String| Problem::new("field", message, "");
         let heights = snapshot.field(&self.field).map_err(|error| refuse(error.to_string()))?;
         let spectrum = Spectrum::new(snapshot.lattice(), &heights)

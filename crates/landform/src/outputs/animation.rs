@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Loader, Saver};
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -97,6 +98,14 @@ impl Sink for AnimationSink {
             }
         }
         Ok(Vec::new())
+    }
+
+    fn save<'a>(&'a mut self, _: &mut Saver<'_, 'a>) -> Result<(), Problem> {
+        Ok(())
+    }
+
+    fn restore(&mut self, from: &Loader<'_>, _: &Snapshot<'_>, _: &Path) -> Result<(), Damage> {
+        Err(from.refuse("frames", "animations cannot go on yet"))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use landform_sim::checkpoint::{Damage, Loader, Saver};
 use landform_sim::field::FieldEntry;
 use landform_sim::output::{Moment, OutputFile, Sink};
 use landform_sim::parameters::Problem;
@@ -46,5 +47,13 @@ impl<O: DueFile> Sink for Due<O> {
         let path = field_file::below(folder, &file)?;
         self.0.write(&path, values, entry, snapshot)?;
         Ok(vec![OutputFile { file, kind: O::KIND.to_owned() }])
+    }
+
+    fn save<'a>(&'a mut self, _: &mut Saver<'_, 'a>) -> Result<(), Problem> {
+        Ok(())
+    }
+
+    fn restore(&mut self, _: &Loader<'_>, _: &Snapshot<'_>, _: &Path) -> Result<(), Damage> {
+        Ok(())
     }
 }

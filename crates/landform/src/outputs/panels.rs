@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Loader, Saver};
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -90,6 +91,30 @@ impl Sink for PanelSink {
             Moment::Iteration => Ok(Vec::new()),
             Moment::End => self.draw(snapshot, folder),
         }
+    }
+
+    fn save<'a>(&'a mut self, to: &mut Saver<'_, 'a>) -> Result<(), Problem> {
+        let names: Vec<&String> = self.states.iter().map(|(name, _)| name).collect();
+        to.value("names", &names);
+        for (index, (_, values)) in self.states.iter().enumerate() {
+            to.array(&index.to_string(), values);
+        }
+        Ok(())
+    }
+
+    fn restore(
+        &mut self,
+        from: &Loader<'_>,
+        snapshot: &Snapshot<'_>,
+        _: &Path,
+    ) -> Result<(), Damage> {
+        let names: Vec<String> = from.value("names")?;
+        let nodes = snapshot.lattice().node_count();
+        let state = |(index, name): (usize, String)| {
+            Ok((name, from.array_of(&index.to_string(), nodes)?.to_vec()))
+        };
+        self.states = names.into_iter().enumerate().map(state).collect::<Result<_, _>>()?;
+        Ok(())
     }
 }
 

@@ -17,9 +17,10 @@ use crate::sandpile::exact::mean_avalanche_size;
 pub struct Avalanches {}
 
 impl Metric for Avalanches {
+    type Memory = ();
     const NAME: &'static str = "Avalanches";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let Some(record) = snapshot.world().get_resource::<AvalancheRecord>() else {
             return Ok(Vec::new());
         };

@@ -31,9 +31,10 @@ impl Default for Crests {
 }
 
 impl Metric for Crests {
+    type Memory = ();
     const NAME: &'static str = "Crests";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let surface = surface(snapshot)?;
         let lattice = snapshot.lattice();
         let crossing = crossing_spacing_m(lattice, &surface, self.towards_deg).map_err(refusal)?;

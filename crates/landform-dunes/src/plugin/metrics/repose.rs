@@ -29,9 +29,10 @@ impl Default for NearRepose {
 }
 
 impl Metric for NearRepose {
+    type Memory = ();
     const NAME: &'static str = "NearRepose";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let surface = surface(snapshot)?;
         let lattice = snapshot.lattice();
         let near = near_repose_percent(lattice, &surface, self.repose_deg, self.tolerance);
@@ -60,9 +61,10 @@ impl Default for BareGround {
 }
 
 impl Metric for BareGround {
+    type Memory = ();
     const NAME: &'static str = "BareGround";
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let sand = field(snapshot, "sand")?;
         Ok(measured([("bare_ground_percent", bare_percent(&sand, self.thickness_m))]))
     }

@@ -29,6 +29,7 @@ pub struct ProtectionError {
 }
 
 impl Metric for ProtectionError {
+    type Memory = ();
     const NAME: &'static str = "ProtectionError";
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -36,7 +37,7 @@ impl Metric for ProtectionError {
         self.error(lattice, &vec![0.0; lattice.node_count()]).map(|_| ())
     }
 
-    fn measure(&mut self, snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let error = self.error(snapshot.lattice(), &surface(snapshot)?)?;
         Ok(measured([
             ("protection_error_percent", Some(error.all_percent)),
