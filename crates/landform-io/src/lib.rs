@@ -5,6 +5,7 @@
 //! | GeoTIFF `.tif` ([`geotiff`]) | yes | f64, f32, i16 | the file |
 //! | ESRI ASCII `.asc` ([`esri_ascii`]) | yes | every digit | a sidecar |
 //! | NumPy `.npy` ([`npy`]) | yes | f64, f32, i32, i16, u8 | a sidecar |
+//! | NumPy archive `.npz` ([`npz`]) | its own | whole numbers, f32, f64, texts | the archive |
 //! | 16-bit grey `.png` ([`png16`]) | no | yes | the file |
 //! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
@@ -40,6 +41,7 @@ mod limits;
 pub mod mesh;
 pub mod metadata;
 pub mod npy;
+pub mod npz;
 #[cfg(feature = "exr")]
 pub mod open_exr;
 pub mod png16;

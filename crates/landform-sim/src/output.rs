@@ -75,7 +75,7 @@ pub trait Sink {
 
     /// Saves what the sink remembers of earlier moments; a sink that remembers nothing saves
     /// nothing. What it has written so far into files that are not finished goes to the disk
-    /// now: they lie in [`checkpoint::folder`](crate::checkpoint::folder), which stays until
+    /// now: they lie in [`checkpoint::FOLDER`](crate::checkpoint::FOLDER), which stays until
     /// the run is over.
     ///
     /// # Errors

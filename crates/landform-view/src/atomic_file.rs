@@ -26,16 +26,6 @@ impl AtomicFile {
         Ok((guard, BufWriter::new(file)))
     }
 
-    /// Where the file is until it is finished.
-    pub(crate) fn temporary(&self) -> &Path {
-        &self.temporary
-    }
-
-    /// The file that was asked for.
-    pub(crate) fn target(&self) -> &Path {
-        &self.target
-    }
-
     /// Puts the file, which must be flushed, in its place.
     pub(crate) fn finish(mut self) -> Result<(), ViewError> {
         fs::rename(&self.temporary, &self.target)

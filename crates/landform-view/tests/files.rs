@@ -77,8 +77,13 @@ fn files_that_are_no_pictures_are_refused() {
     ));
 }
 
+/// An animation whose frames are collected beside it.
+fn create(path: &Path, delay_ms: u32, text: &[(&str, &str)]) -> Result<Animation, ViewError> {
+    Animation::create(path, &path.with_extension("part"), delay_ms, text)
+}
+
 fn animate(path: &Path, frames: usize) {
-    let mut animation = Animation::create(path, 80, &[("seed", "7")]).unwrap();
+    let mut animation = create(path, 80, &[("seed", "7")]).unwrap();
     for shift in 0..frames {
         animation.add(&gradient(shift)).unwrap();
     }
@@ -130,11 +135,11 @@ fn gif_files_hold_every_frame() {
 fn unfinished_animations_leave_nothing() {
     let folder = Folder::new("unfinished");
     for name in ["run.png", "run.gif"] {
-        let mut animation = Animation::create(&folder.0.join(name), 80, &[]).unwrap();
+        let mut animation = create(&folder.0.join(name), 80, &[]).unwrap();
         animation.add(&gradient(0)).unwrap();
         assert_eq!(folder.files().len(), 1, "the temporary file");
         drop(animation);
-        let empty = Animation::create(&folder.0.join(name), 80, &[]).unwrap();
+        let empty = create(&folder.0.join(name), 80, &[]).unwrap();
         assert!(matches!(empty.finish(), Err(ViewError::NoFrames { .. })));
     }
     assert!(folder.files().is_empty(), "{:?}", folder.files());
@@ -143,9 +148,9 @@ fn unfinished_animations_leave_nothing() {
 #[test]
 fn wrong_frames_and_formats_are_refused() {
     let folder = Folder::new("frames");
-    let error = Animation::create(&folder.0.join("run.mp4"), 80, &[]).unwrap_err();
+    let error = create(&folder.0.join("run.mp4"), 80, &[]).unwrap_err();
     assert!(error.to_string().contains(".gif"), "{error}");
-    let mut animation = Animation::create(&folder.0.join("run.gif"), 80, &[]).unwrap();
+    let mut animation = create(&folder.0.join("run.gif"), 80, &[]).unwrap();
     animation.add(&gradient(0)).unwrap();
     let other = Image::filled(41, 30, [0; 3]).unwrap();
     let error = animation.add(&other).unwrap_err();
@@ -153,6 +158,39 @@ fn wrong_frames_and_formats_are_refused() {
     animation.add(&gradient(1)).unwrap();
     animation.finish().unwrap();
     let wide = Image::filled(70_000, 1, [0; 3]).unwrap();
-    let mut animation = Animation::create(&folder.0.join("wide.gif"), 80, &[]).unwrap();
+    let mut animation = create(&folder.0.join("wide.gif"), 80, &[]).unwrap();
     assert!(matches!(animation.add(&wide), Err(ViewError::TooLarge { .. })));
+}
+
+/// The end of a run that was killed comes from a mark, and the bytes are those of an unbroken run.
+#[test]
+fn an_animation_goes_on_from_a_mark_with_the_same_bytes() {
+    for name in ["run.apng", "run.gif"] {
+        let folder = Folder::new("resume");
+        let whole = folder.0.join(format!("whole_{name}"));
+        animate(&whole, 5);
+        let path = folder.0.join(name);
+        let mut first = create(&path, 80, &[("seed", "7")]).unwrap();
+        first.add(&gradient(0)).unwrap();
+        first.add(&gradient(1)).unwrap();
+        let mark = first.mark().unwrap();
+        first.add(&gradient(9)).unwrap();
+        drop(first);
+        // Once more, since a resumed run may be killed after it has finished its files.
+        for _ in 0..2 {
+            let mut second = create(&path, 80, &[("seed", "7")]).unwrap();
+            second.resume(mark).unwrap();
+            (2..5).for_each(|shift| second.add(&gradient(shift)).unwrap());
+            second.finish().unwrap();
+            assert!(fs::read(&path).unwrap() == fs::read(&whole).unwrap(), "{name}");
+        }
+        let part = path.with_extension("part");
+        let mut bytes = fs::read(&part).unwrap();
+        bytes[50] ^= 1;
+        fs::write(&part, &bytes).unwrap();
+        let error = create(&path, 80, &[]).unwrap().resume(mark).unwrap_err();
+        assert!(error.to_string().contains("changed"), "{error}");
+        fs::write(&part, &bytes[..50]).unwrap();
+        assert!(create(&path, 80, &[]).unwrap().resume(mark).is_err());
+    }
 }

@@ -1,12 +1,12 @@
 //! The header of an array file: a Python dictionary in ASCII.
 
-use crate::{Fault, Place, SampleType};
+use crate::{Fault, Place};
 
-pub(super) const MAGIC: &[u8; 6] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
 /// What a header says.
 #[derive(Debug, PartialEq)]
-pub(super) struct Header {
+pub(crate) struct Header {
     /// Type character and number of bytes: `f8`, `i2`, `b1`.
     pub kind: String,
     pub big_endian: bool,
@@ -14,14 +14,12 @@ pub(super) struct Header {
     pub shape: Vec<u64>,
 }
 
-/// Magic, version and dictionary, padded to a multiple of 64 bytes.
-pub(super) fn bytes(shape: &[usize], sample: SampleType) -> Vec<u8> {
+/// Magic, version and dictionary, padded to a multiple of 64 bytes. `descr` is the type of the
+/// numbers with their order of bytes: `<f8`.
+pub(crate) fn bytes(shape: &[usize], descr: &str) -> Vec<u8> {
     let sizes: Vec<String> = shape.iter().map(|size| format!("{size},")).collect();
-    let mut text = format!(
-        "{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
-        sample.name(),
-        sizes.join(" ")
-    );
+    let mut text =
+        format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({}), }}", sizes.join(" "));
     let unpadded = MAGIC.len() + 4 + text.len() + 1;
     text.extend(std::iter::repeat_n(' ', unpadded.next_multiple_of(64) - unpadded));
     text.push('\n');
@@ -32,12 +30,26 @@ pub(super) fn bytes(shape: &[usize], sample: SampleType) -> Vec<u8> {
     bytes
 }
 
-/// Parses the dictionary.
+/// Parses the dictionary of an array with at least one number.
 pub(super) fn parse(text: &str) -> Result<Header, Fault> {
-    let fault = |problem: String, expected: &str| {
-        let advice = "save the array again with numpy.save";
-        Fault::new(problem, expected, advice).at(Place::Byte(10))
-    };
+    let header = parse_any(text)?;
+    match header.shape.contains(&0) {
+        true => Err(bad_shape()),
+        false => Ok(header),
+    }
+}
+
+fn fault(problem: String, expected: &str) -> Fault {
+    let advice = "save the array again with numpy.save";
+    Fault::new(problem, expected, advice).at(Place::Byte(10))
+}
+
+fn bad_shape() -> Fault {
+    fault("the shape cannot be read".into(), "a tuple of sizes, each at least 1")
+}
+
+/// Parses the dictionary of any array.
+pub(crate) fn parse_any(text: &str) -> Result<Header, Fault> {
     let entry = |key: &str| {
         let quoted = [format!("'{key}'"), format!("\"{key}\"")];
         let found = quoted.iter().find_map(|name| Some((text.find(name.as_str())?, name.len())));
@@ -62,15 +74,13 @@ pub(super) fn parse(text: &str) -> Result<Header, Fault> {
         _ => return Err(fault("fortran_order is neither".into(), "True or False")),
     };
     let shape = entry("shape")?.strip_prefix('(').and_then(|rest| rest.split(')').next());
-    let shape = shape.and_then(sizes).ok_or_else(|| {
-        fault("the shape cannot be read".into(), "a tuple of sizes, each at least 1")
-    })?;
+    let shape = shape.and_then(sizes).ok_or_else(bad_shape)?;
     Ok(Header { kind: kind.into(), big_endian, fortran_order, shape })
 }
 
 fn sizes(text: &str) -> Option<Vec<u64>> {
     let items = text.split(',').map(str::trim).filter(|item| !item.is_empty());
-    items.map(|item| item.trim_end_matches('L').parse().ok().filter(|&size| size > 0)).collect()
+    items.map(|item| item.trim_end_matches('L').parse().ok()).collect()
 }
 
 #[cfg(test)]
@@ -80,7 +90,7 @@ mod tests {
     #[test]
     fn the_header_is_read_back_and_aligned() {
         for sizes in [vec![3], vec![20, 30], vec![1, 2, 3]] {
-            let bytes = bytes(&sizes, SampleType::I16);
+            let bytes = bytes(&sizes, "<i2");
             assert_eq!(bytes.len() % 64, 0);
             let header = parse(std::str::from_utf8(&bytes[10..]).unwrap()).unwrap();
             assert_eq!(header.kind, "i2");

@@ -3,7 +3,7 @@
 //! Arrays are read in either byte order, in C or Fortran order, as f64; rasters must have two
 //! axes (rows, columns). What the format cannot hold stands in the [`Sidecar`].
 
-mod header;
+pub(crate) mod header;
 mod read;
 
 use std::io::Write;
@@ -64,7 +64,7 @@ pub fn write(
         georeference: raster.georeference.clone(),
     };
     sidecar.write_with(path, if_exists, |writer| {
-        writer.write_all(&header::bytes(&[raster.height, raster.width], sample))?;
+        writer.write_all(&header::bytes(&[raster.height, raster.width], sample.name()))?;
         sample.write(&stored.numbers, writer)
     })
 }
@@ -95,7 +95,7 @@ pub fn write_array(
         georeference: None,
     };
     sidecar.write_with(path, if_exists, |writer| {
-        writer.write_all(&header::bytes(shape, sample))?;
+        writer.write_all(&header::bytes(shape, sample.name()))?;
         sample.write(values, writer)
     })
 }

@@ -15,10 +15,6 @@ pub use damage::Damage;
 pub use keep::Keep;
 pub use store::{Checkpoint, Loader, Saver};
 
-use std::path::{Path, PathBuf};
-
-/// The folder, below the output folder of a run, that holds its checkpoint and the unfinished
-/// files of its outputs. It is removed when the run is over.
-pub fn folder(output: &Path) -> PathBuf {
-    output.join("checkpoint")
-}
+/// Name of the folder, in the output folder of a run, that holds its checkpoint and the
+/// unfinished files of its outputs. It is removed when the run is over.
+pub const FOLDER: &str = "checkpoint";

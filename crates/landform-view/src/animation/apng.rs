@@ -1,92 +1,95 @@
 //! Animations as APNG (PNG specification, third edition, section 11.3.6).
+//!
+//! Every frame is made as a picture of its own, whose compressed rows then become a frame of the
+//! animation. So no encoder lives from frame to frame, and a run that was killed goes on.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
-use std::path::Path;
-
-use crate::atomic_file::{AtomicFile, write_error};
+use crate::Image;
 use crate::image::configure;
-use crate::{Image, ViewError};
 
-/// Number of frames in the file's head until the true one is known.
-const UNKNOWN_FRAMES: u32 = u32::MAX;
+/// Where the chunk with the number of frames starts: after the signature and the head.
+pub(super) const COUNT_PLACE: u64 = 8 + 25;
 
-/// An APNG file that is being written.
-pub(super) struct Apng {
-    guard: AtomicFile,
-    writer: png::Writer<BufWriter<File>>,
+/// What an APNG file begins with before its first frame: everything that `image`, as a picture
+/// of its own, has before its rows, and room for the number of frames.
+pub(super) fn beginning(
+    image: &Image,
+    text: &[(&str, &str)],
+) -> Result<Vec<u8>, png::EncodingError> {
+    let picture = encoded(image, text)?;
+    let mut bytes = picture[..COUNT_PLACE as usize].to_vec();
+    bytes.extend(count_chunk(0));
+    let heads = chunks(&picture).skip(1).take_while(|(name, _)| *name != b"IDAT");
+    heads.for_each(|(name, contents)| bytes.extend(chunk(name, &[contents])));
+    Ok(bytes)
 }
 
-impl Apng {
-    /// Opens the file; `text` as of [`Image::write_png`].
-    pub(super) fn create(
-        path: &Path,
-        [width, height]: [usize; 2],
-        delay_ms: u32,
-        text: &[(&str, &str)],
-    ) -> Result<Self, ViewError> {
-        let (guard, file) = AtomicFile::create(path)?;
-        let problem = |error| ViewError::format(path, error);
-        let mut encoder = png::Encoder::new(file, width as u32, height as u32);
-        configure(&mut encoder, text).map_err(problem)?;
-        encoder.set_animated(UNKNOWN_FRAMES, 0).map_err(problem)?;
-        encoder.set_frame_delay(delay_ms as u16, 1000).map_err(problem)?;
-        let writer = encoder.write_header().map_err(problem)?;
-        Ok(Self { guard, writer })
+/// The chunks of frame `number`.
+pub(super) fn frame(
+    image: &Image,
+    number: usize,
+    delay_ms: u32,
+) -> Result<Vec<u8>, png::EncodingError> {
+    let picture = encoded(image, &[])?;
+    let rows: Vec<&[u8]> =
+        chunks(&picture).filter(|(name, _)| *name == b"IDAT").map(|(_, rows)| rows).collect();
+    // The control chunk and the rows of each frame but the first count on; here the rows of a
+    // frame are one chunk.
+    let sequence = if number == 0 { 0 } else { 2 * number as u32 - 1 };
+    let mut control = sequence.to_be_bytes().to_vec();
+    for size in [image.width as u32, image.height as u32, 0, 0] {
+        control.extend(size.to_be_bytes());
     }
-
-    /// Writes a frame of the size of the file.
-    pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
-        self.writer
-            .write_image_data(image.rgb.as_flattened())
-            .map_err(|error| ViewError::format(self.guard.target(), error))
+    control.extend([delay_ms as u16, 1000].map(u16::to_be_bytes).concat());
+    // Frames stay where they are and replace what is there.
+    control.extend([0, 0]);
+    let mut bytes = chunk(b"fcTL", &[&control]);
+    match number {
+        0 => bytes.extend(chunk(b"IDAT", &rows)),
+        _ => bytes
+            .extend(chunk(b"fdAT", &[&[&(sequence + 1).to_be_bytes()[..]], &rows[..]].concat())),
     }
-
-    /// Ends the file; the number of frames is known only now and goes into its head.
-    pub(super) fn finish(self, frames: usize) -> Result<(), ViewError> {
-        let target = self.guard.target();
-        self.writer.finish().map_err(|error| ViewError::format(target, error))?;
-        write_frame_count(self.guard.temporary(), frames as u32)
-            .map_err(|error| write_error(target, error))?;
-        self.guard.finish()
-    }
+    Ok(bytes)
 }
 
-impl std::fmt::Debug for Apng {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Apng").field("guard", &self.guard).finish_non_exhaustive()
-    }
+/// The chunk with the number of frames, which are shown over and over.
+pub(super) fn count_chunk(frames: usize) -> Vec<u8> {
+    chunk(b"acTL", &[&(frames as u32).to_be_bytes(), &[0; 4]])
 }
 
-/// Puts the number of frames into the `acTL` chunk of a file.
-fn write_frame_count(path: &Path, frames: u32) -> io::Result<()> {
-    let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-    // Chunks follow the eight bytes of the signature: length, name, contents, checksum.
-    let mut start = 8;
-    loop {
-        let mut head = [0; 8];
-        file.seek(SeekFrom::Start(start))?;
-        file.read_exact(&mut head)?;
-        if head.ends_with(b"acTL") {
-            break;
-        }
-        let [a, b, c, d, ..] = head;
-        start += 12 + u64::from(u32::from_be_bytes([a, b, c, d]));
-    }
-    // Frame count and number of plays; 0 plays for ever.
-    let mut chunk = *b"acTL\0\0\0\0\0\0\0\0";
-    chunk[4..8].copy_from_slice(&frames.to_be_bytes());
-    file.seek(SeekFrom::Start(start + 4))?;
-    file.write_all(&chunk)?;
-    file.write_all(&checksum(&chunk).to_be_bytes())?;
-    file.sync_all()
+/// What an APNG file ends with.
+pub(super) fn end() -> Vec<u8> {
+    chunk(b"IEND", &[])
 }
 
-/// CRC-32 of a chunk's name and contents (PNG specification, annex D).
-fn checksum(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |sum, &byte| {
-        (0..8).fold(sum ^ u32::from(byte), |sum, _| {
-            (sum >> 1) ^ (0xEDB8_8320 & (sum & 1).wrapping_neg())
-        })
+fn encoded(image: &Image, text: &[(&str, &str)]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
+    configure(&mut encoder, text)?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(image.rgb.as_flattened())?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Names and contents of the chunks of a PNG file: length, name, contents, checksum each.
+fn chunks(file: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
+    let mut rest = &file[8..];
+    std::iter::from_fn(move || {
+        let (length, name) = (rest.get(..4)?, rest.get(4..8)?);
+        let length = u32::from_be_bytes(length.try_into().ok()?) as usize;
+        let contents = rest.get(8..8 + length)?;
+        rest = rest.get(12 + length..)?;
+        Some((name, contents))
     })
+}
+
+/// A chunk whose contents are in several pieces.
+fn chunk(name: &[u8], contents: &[&[u8]]) -> Vec<u8> {
+    let length: usize = contents.iter().map(|piece| piece.len()).sum();
+    let mut bytes = (length as u32).to_be_bytes().to_vec();
+    bytes.extend(name);
+    contents.iter().for_each(|piece| bytes.extend(*piece));
+    let checksum = crc32fast::hash(&bytes[4..]);
+    bytes.extend(checksum.to_be_bytes());
+    bytes
 }

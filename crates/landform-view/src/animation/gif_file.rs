@@ -1,12 +1,8 @@
-//! Animations as GIF.
+//! Animations as GIF. Every frame is made by an encoder of its own, so that a run that was
+//! killed goes on.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use gif::{AnyExtension, Encoder, EncodingError, Frame, Repeat};
 
-use gif::{AnyExtension, Encoder, Frame, Repeat};
-
-use crate::atomic_file::{AtomicFile, write_error};
 use crate::{Image, ViewError};
 
 /// About how many pixels of a frame its palette is learnt from.
@@ -15,62 +11,51 @@ const PALETTE_SAMPLE: usize = 60_000;
 /// Label of a comment block (GIF89a specification, section 24).
 const COMMENT: AnyExtension = AnyExtension(0xFE);
 
-/// A GIF file that is being written.
-pub(super) struct GifFile {
-    guard: AtomicFile,
-    encoder: Encoder<BufWriter<File>>,
-    size: [u16; 2],
-    delay: u16,
-}
+/// What a GIF file ends with (section 27).
+pub(super) const END: u8 = 0x3B;
 
-impl GifFile {
-    /// Opens the file; `text` becomes comments.
-    pub(super) fn create(
-        path: &Path,
-        size: [usize; 2],
-        delay_ms: u32,
-        text: &[(&str, &str)],
-    ) -> Result<Self, ViewError> {
-        let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
-            let (what, [width, height]) = ("a GIF frame", size);
-            return Err(ViewError::TooLarge { what, width, height });
-        };
-        let (guard, file) = AtomicFile::create(path)?;
-        let problem = |error| ViewError::format(path, error);
-        let mut encoder = Encoder::new(file, width, height, &[]).map_err(problem)?;
-        encoder.set_repeat(Repeat::Infinite).map_err(problem)?;
-        for (keyword, entry) in text {
-            let comment = format!("{keyword}: {entry}");
-            let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
-            encoder.write_raw_extension(COMMENT, &blocks).map_err(problem)?;
-        }
-        let delay = ((delay_ms + 5) / 10) as u16;
-        Ok(Self { guard, encoder, size: [width, height], delay })
-    }
-
-    /// Writes a frame of the size of the file with a palette of its own.
-    pub(super) fn add(&mut self, image: &Image) -> Result<(), ViewError> {
-        let [width, height] = self.size;
-        let pixels = image.rgb.as_flattened();
-        // Every so many pixels count; the encoder allows up to every thirtieth.
-        let every = (image.rgb.len() / PALETTE_SAMPLE).clamp(1, 30) as i32;
-        let mut frame = Frame::from_rgb_speed(width, height, pixels, every);
-        frame.delay = self.delay;
-        let problem = |error| ViewError::format(self.guard.target(), error);
-        self.encoder.write_frame(&frame).map_err(problem)
-    }
-
-    /// Ends the file and puts it in its place.
-    pub(super) fn finish(self) -> Result<(), ViewError> {
-        let problem = |error| ViewError::format(self.guard.target(), error);
-        let mut file = self.encoder.into_inner().map_err(problem)?;
-        file.flush().map_err(|error| write_error(self.guard.target(), error))?;
-        self.guard.finish()
+/// The size of a frame as GIF counts it.
+pub(super) fn size_of([width, height]: [usize; 2]) -> Result<[u16; 2], ViewError> {
+    match [width, height].map(u16::try_from) {
+        [Ok(width), Ok(height)] => Ok([width, height]),
+        _ => Err(ViewError::TooLarge { what: "a GIF frame", width, height }),
     }
 }
 
-impl std::fmt::Debug for GifFile {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("GifFile").field("guard", &self.guard).finish_non_exhaustive()
+/// What a GIF file begins with; `text` becomes comments.
+pub(super) fn beginning(size: [u16; 2], text: &[(&str, &str)]) -> Result<Vec<u8>, EncodingError> {
+    let mut encoder = Encoder::new(Vec::new(), size[0], size[1], &[])?;
+    encoder.set_repeat(Repeat::Infinite)?;
+    for (keyword, entry) in text {
+        let comment = format!("{keyword}: {entry}");
+        let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
+        encoder.write_raw_extension(COMMENT, &blocks)?;
     }
+    without_end(encoder)
+}
+
+/// A frame with a palette of its own.
+pub(super) fn frame(
+    image: &Image,
+    [width, height]: [u16; 2],
+    delay_ms: u32,
+) -> Result<Vec<u8>, EncodingError> {
+    // Every so many pixels count; the encoder allows up to every thirtieth.
+    let every = (image.rgb.len() / PALETTE_SAMPLE).clamp(1, 30) as i32;
+    let mut frame = Frame::from_rgb_speed(width, height, image.rgb.as_flattened(), every);
+    frame.delay = ((delay_ms + 5) / 10) as u16;
+    let head = without_end(Encoder::new(Vec::new(), width, height, &[])?)?.len();
+    let mut encoder = Encoder::new(Vec::new(), width, height, &[])?;
+    encoder.write_frame(&frame)?;
+    let mut bytes = without_end(encoder)?;
+    bytes.drain(..head);
+    Ok(bytes)
+}
+
+fn without_end(encoder: Encoder<Vec<u8>>) -> Result<Vec<u8>, EncodingError> {
+    let mut bytes = encoder.into_inner()?;
+    if bytes.last() == Some(&END) {
+        bytes.pop();
+    }
+    Ok(bytes)
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
-use landform_sim::checkpoint::{Damage, Loader, Saver};
+use landform_sim::checkpoint::{self, Damage, Loader, Saver};
 use landform_sim::output::{Moment, Output, OutputFile, Sink};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -79,11 +79,7 @@ impl Sink for AnimationSink {
     ) -> Result<Vec<OutputFile>, Problem> {
         match moment {
             Moment::Start => {
-                let path = field_file::below(folder, &self.settings.file)?;
-                let text = picture_text(snapshot, &self.settings.field);
-                let text: Vec<_> = text.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
-                let made = animation::Animation::create(&path, self.settings.delay_ms, &text);
-                self.encoder = Some(made.map_err(|error| problem(&error))?);
+                self.encoder = Some(self.open(snapshot, folder)?);
                 self.frame(snapshot)?;
             }
             Moment::Iteration if snapshot.clock().tick.is_multiple_of(self.settings.every) => {
@@ -100,16 +96,45 @@ impl Sink for AnimationSink {
         Ok(Vec::new())
     }
 
-    fn save<'a>(&'a mut self, _: &mut Saver<'_, 'a>) -> Result<(), Problem> {
+    fn save<'a>(&'a mut self, to: &mut Saver<'_, 'a>) -> Result<(), Problem> {
+        let mark = self.encoder.as_mut().map(animation::Animation::mark).transpose();
+        let mark = mark.map_err(|error| problem(&error))?.unwrap_or_default();
+        to.value("frames", &(mark.frames, mark.size, mark.length, mark.checksum));
         Ok(())
     }
 
-    fn restore(&mut self, from: &Loader<'_>, _: &Snapshot<'_>, _: &Path) -> Result<(), Damage> {
-        Err(from.refuse("frames", "animations cannot go on yet"))
+    fn restore(
+        &mut self,
+        from: &Loader<'_>,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<(), Damage> {
+        let (frames, size, length, checksum) = from.value("frames")?;
+        let mark = animation::Mark { frames, size, length, checksum };
+        let refuse = |message: String| from.refuse("frames", message);
+        let mut encoder = self.open(snapshot, folder).map_err(|error| refuse(error.to_string()))?;
+        encoder.resume(mark).map_err(|error| refuse(error.to_string()))?;
+        self.encoder = Some(encoder);
+        Ok(())
     }
 }
 
 impl AnimationSink {
+    /// The animation without frames. Until it is finished they lie beside the checkpoint.
+    fn open(
+        &self,
+        snapshot: &Snapshot<'_>,
+        folder: &Path,
+    ) -> Result<animation::Animation, Problem> {
+        let Animation { file, field, delay_ms, .. } = &self.settings;
+        let path = field_file::below(folder, file)?;
+        let part = field_file::below(&folder.join(checkpoint::FOLDER), file)?;
+        let text = picture_text(snapshot, field);
+        let text: Vec<_> = text.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
+        animation::Animation::create(&path, &part, *delay_ms, &text)
+            .map_err(|error| problem(&error))
+    }
+
     fn frame(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
         let (values, entry) = field_file::values(snapshot, &self.settings.field)?;
         let image = self.settings.look.draw(snapshot.lattice(), &values, entry.unit);

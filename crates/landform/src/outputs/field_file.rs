@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use landform_graph::Lattice;
 use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
+use landform_sim::checkpoint;
 use landform_sim::field::FieldEntry;
 use landform_sim::output::{Output, Sink};
 use landform_sim::parameters::Problem;
@@ -102,6 +103,9 @@ pub(super) fn check_file(file: &Path, extensions: &[&str]) -> Result<(), Problem
     }
     if file.starts_with("fields") {
         return refuse("lies in the folder of the final fields", "a name outside `fields`");
+    }
+    if file.starts_with(checkpoint::FOLDER) {
+        return refuse("lies in the folder of the checkpoint", "a name outside `checkpoint`");
     }
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     match extensions.contains(&extension.as_str()) {
