@@ -242,11 +242,12 @@ mod tests {
         // As many as weaken the middle by more than the strongest block can bear.
         let center = lattice.node([32, 32, 0]);
         events[center] = 1;
-        for _ in 0..6 * state.disc.area() {
-            state.disc.add_events(&lattice, &events, &mut state.weakened);
+        let disc = Disc::new(&lattice, model.radius_m).unwrap();
+        for _ in 0..6 * disc.area() {
+            disc.add_events(&lattice, &events, &mut state.weakened);
         }
         let mut heights = vec![0.0; lattice.node_count()];
-        assert_eq!(model.step(&lattice, &mut state, &mut heights), Ok(state.disc.area()));
+        assert_eq!(model.step(&lattice, &mut state, &mut heights), Ok(disc.area()));
         for (node, height) in heights.iter().enumerate() {
             let [x, y, _] = lattice.coordinates(node);
             let near = x.abs_diff(32).pow(2) + y.abs_diff(32).pow(2) <= 100;

@@ -85,7 +85,9 @@ impl Resumed {
 impl Simulation {
     /// From now on `keeper` is asked for checkpoints.
     pub fn keep_checkpoints(&mut self, keeper: Box<dyn Keeper>) {
-        self.start = self.state.hash_of_fields(self.app.world());
+        if self.start.is_empty() {
+            self.start = self.state.hash_of_fields(self.app.world());
+        }
         self.keeper = Some(keeper);
     }
 
@@ -95,8 +97,8 @@ impl Simulation {
     /// # Errors
     /// What differs, is missing or cannot be used. The simulation is of no use then.
     pub fn resume(&mut self, checkpoint: Checkpoint<'static>, folder: &Path) -> Result<(), Damage> {
-        let clock = self.check_manifest(&checkpoint)?;
-        let (clock, stage_is_over) = clock;
+        self.start = self.state.hash_of_fields(self.app.world());
+        let (clock, stage_is_over) = self.check_manifest(&checkpoint)?;
         let report: Report = checkpoint.loader("run").value("report")?;
         if clock.stage >= self.stages.len() || report.stages.len() != clock.stage + 1 {
             return Err(checkpoint.loader("run").refuse("report", "its stages do not fit"));
@@ -161,11 +163,7 @@ impl Simulation {
     /// Refuses checkpoints of other runs. Gives the clock and whether the stage was over.
     fn check_manifest(&self, checkpoint: &Checkpoint<'_>) -> Result<(Clock, bool), Damage> {
         let found = Manifest::of(checkpoint)?;
-        let present = Manifest {
-            start: self.state.hash_of_fields(self.app.world()),
-            ..self.manifest(found.stage_is_over)
-        };
-        found.check_is_of(&present)?;
+        found.check_is_of(&self.manifest(found.stage_is_over))?;
         let Manifest { tick, iteration, stage, seed, stage_is_over, .. } = found;
         Ok((Clock { tick, iteration, stage, seed }, stage_is_over))
     }

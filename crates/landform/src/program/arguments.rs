@@ -15,6 +15,7 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "Examples:
   landform run scenarios/gallery/dunes.ron
   landform run scenarios/gallery/dunes.ron -o out/windy --seed 7 --set stages[0].processes.Dunes.wind_strength_m=200
+  landform run scenarios/gallery/dunes.ron -o out/dunes --resume
   landform run scenarios/gallery/dunes_on_dem.ron --set domain.path=my_dem.tif
   landform describe Dunes
   landform export out/dunes --field surface --to dunes.tif
@@ -84,12 +85,51 @@ pub(crate) struct RunArguments {
     /// Write into an existing folder; files of the same names are replaced
     #[arg(long)]
     pub force: bool,
+    /// Go on with the run in the folder of -o, which was interrupted or killed
+    #[arg(long, requires = "output", conflicts_with = "force")]
+    pub resume: bool,
+    /// How often a checkpoint is written to resume from: every 90s, 10min, 2h or 500it
+    /// (iterations of a stage); 0 for only when the run is interrupted
+    #[arg(long, value_name = "INTERVAL", default_value = "5min", value_parser = Interval::parse)]
+    pub checkpoint_every: Interval,
     /// Largest memory that the run may need; without it most of what is free
     #[arg(long, value_name = "GIB")]
     pub memory_limit_gib: Option<f64>,
     /// No progress bar
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// How often something happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Interval {
+    /// Never by itself.
+    Never,
+    /// After so many seconds.
+    Seconds(f64),
+    /// After so many iterations of a stage.
+    Iterations(u64),
+}
+
+impl Interval {
+    /// Reads `90s`, `10min`, `2h`, `500it` or `0`.
+    fn parse(text: &str) -> Result<Self, String> {
+        let digits = text.find(|letter: char| letter.is_ascii_alphabetic()).unwrap_or(text.len());
+        let (number, unit) = text.split_at(digits);
+        let number = number.trim();
+        let count = number.parse().ok().filter(|&count: &u64| count > 0);
+        let size = number.parse().ok().filter(|size: &f64| size.is_finite() && *size >= 0.0);
+        let seconds = |factor: f64| size.map(|size| Self::Seconds(size * factor));
+        let interval = match unit {
+            _ if size == Some(0.0) => Some(Self::Never),
+            "s" => seconds(1.0),
+            "min" => seconds(60.0),
+            "h" => seconds(3600.0),
+            "it" => count.map(Self::Iterations),
+            _ => None,
+        };
+        interval.ok_or_else(|| "write it as 90s, 10min, 2h, 500it or 0".to_owned())
+    }
 }
 
 #[derive(Args)]

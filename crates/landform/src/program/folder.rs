@@ -47,6 +47,29 @@ fn fresh(stem: &str) -> PathBuf {
         .unwrap_or(first)
 }
 
+/// Removes files that a process which was killed had begun to write beside their places, as far
+/// as that is possible: `.NAME.PROCESS.NUMBER.tmp` and `NAME.PROCESS.part`.
+pub(super) fn remove_leftovers(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let parts: Vec<&str> = name.rsplit('.').collect();
+        let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let is_leftover = match parts[..] {
+            ["tmp", number, process, _, ..] => {
+                name.starts_with('.') && is_number(number) && is_number(process)
+            }
+            ["part", process, _, ..] => is_number(process),
+            _ => false,
+        };
+        match entry.file_type() {
+            Ok(kind) if kind.is_dir() => remove_leftovers(&path),
+            Ok(kind) if kind.is_file() && is_leftover => drop(fs::remove_file(&path)),
+            _ => {}
+        }
+    }
+}
+
 /// Writes text into a file of the folder.
 pub(super) fn write_text(path: &Path, text: &str) -> Result<(), String> {
     use std::io::Write;

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod checkpoint_file;
 mod describe;
 mod export;
 mod folder;
@@ -10,6 +11,7 @@ mod list;
 mod memory;
 mod progress_bar;
 mod reproduce;
+mod resume;
 mod run;
 mod talk;
 mod view;

@@ -11,11 +11,12 @@ use super::interrupt;
 pub(super) struct Bar {
     bar: ProgressBar,
     quiet: bool,
+    stage: Option<usize>,
 }
 
 impl Bar {
     pub(super) fn new(quiet: bool) -> Self {
-        Self { bar: ProgressBar::hidden(), quiet }
+        Self { bar: ProgressBar::hidden(), quiet, stage: None }
     }
 
     pub(super) fn finish(&self) {
@@ -49,10 +50,10 @@ const UNKNOWN: &str = "{prefix} {spinner} {pos} iterations, {elapsed}";
 
 impl ProgressHook for Bar {
     fn progress(&mut self, progress: &Progress<'_>) -> ControlFlow<()> {
-        match progress.iteration {
-            0 => self.begin_stage(progress),
-            iteration => self.bar.set_position(iteration),
+        if self.stage.replace(progress.stage) != Some(progress.stage) {
+            self.begin_stage(progress);
         }
+        self.bar.set_position(progress.iteration);
         match interrupt::asked() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -10,7 +10,9 @@ use landform_sim::scenario::ScenarioSource;
 use landform_sim::simulation::{Limits, ProgressHook, Report, RunError, Simulation};
 
 use super::arguments::RunArguments;
+use super::checkpoint_file::{self, Claim, FileKeeper};
 use super::progress_bar::Bar;
+use super::resume::{self, Rest};
 use super::{Failure, Outcome, folder, interrupt, memory, talk};
 use crate::outputs::{metadata, raster_of};
 
@@ -25,15 +27,59 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         scenario.seed = arguments.seed.unwrap_or(scenario.seed);
         let mut simulation = Simulation::new(scenario, source.folder(), Limits { memory_bytes })
             .map_err(|problem| Failure::Refused(source.render(&problem)))?;
-        let stem = arguments.scenario.file_stem().unwrap_or_default().to_string_lossy();
-        let folder = folder::make(arguments.output.as_deref(), &stem, arguments.force)
-            .map_err(Failure::Refused)?;
+        let folder = match &arguments.output {
+            Some(folder) if arguments.resume => folder.clone(),
+            asked => {
+                let stem = arguments.scenario.file_stem().unwrap_or_default().to_string_lossy();
+                folder::make(asked.as_deref(), &stem, arguments.force).map_err(Failure::Refused)?
+            }
+        };
+        let rest = match arguments.resume {
+            true => resume::rest(&folder, &source).map_err(Failure::Refused)?,
+            false => Rest::Everything,
+        };
+        if matches!(rest, Rest::Nothing) {
+            talk::tell(&format!("the run in {} is over: nothing is left to do", folder.display()));
+            return Ok(());
+        }
+        let claim = Claim::new(&folder).map_err(Failure::Refused)?;
+        take_up(rest, &folder, &mut simulation, &claim)?;
+        let size = simulation.lattice().size();
+        let interval = arguments.checkpoint_every;
+        simulation.keep_checkpoints(Box::new(FileKeeper::new(
+            &folder,
+            interval,
+            source.text(),
+            size,
+        )));
         let mut bar = Bar::new(arguments.quiet);
         let done = run_in(&folder, &mut simulation, &source, &mut bar);
         bar.finish();
+        claim.release(&folder, done.as_ref().is_ok_and(|(_, result)| result.is_ok()));
         let (report, result) = done.map_err(Failure::Failed)?;
-        result.map_err(|error| failure(error, &folder))?;
+        result.map_err(|error| failure(error, &folder, &arguments.scenario))?;
         talk::say(&summary(&report, &folder))
+    })
+}
+
+/// Prepares a simulation for what is left to do in its folder.
+fn take_up(
+    rest: Rest,
+    folder: &Path,
+    simulation: &mut Simulation,
+    claim: &Claim,
+) -> Result<(), Failure> {
+    folder::remove_leftovers(folder);
+    let Rest::After(checkpoint) = rest else {
+        return claim.clear(folder).map_err(Failure::Refused);
+    };
+    simulation.resume(checkpoint, folder).map_err(|damage| {
+        let path = checkpoint_file::path(folder);
+        Failure::Refused(format!(
+            "cannot resume from {}: {damage}; start a new run in another folder, or here with \
+             --force",
+            path.display()
+        ))
     })
 }
 
@@ -49,8 +95,9 @@ pub(super) fn run_in(
     hook: &mut dyn ProgressHook,
 ) -> Result<(Report, Result<(), RunError>), String> {
     let mut report = Report::default();
+    folder::write_text(&folder.join("scenario.ron"), source.text())?;
     let result = simulation.run(folder, hook, &mut report);
-    finish(simulation, source, folder, &mut report)?;
+    finish(simulation, folder, &mut report)?;
     Ok((report, result))
 }
 
@@ -76,21 +123,21 @@ fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, String> {
         .map_err(|error| format!("cannot start the threads: {error}"))
 }
 
-fn failure(error: RunError, folder: &Path) -> Failure {
+fn failure(error: RunError, folder: &Path, scenario: &Path) -> Failure {
     let message = format!("{error}\nwhat was done until then is in {}", folder.display());
     match error {
+        RunError::Interrupted { kept: true, .. } => Failure::Interrupted(format!(
+            "{message}\ngo on with: landform run {} -o {} --resume (and the same --set and --seed)",
+            scenario.display(),
+            folder.display()
+        )),
         RunError::Interrupted { .. } => Failure::Interrupted(message),
         _ => Failure::Failed(message),
     }
 }
 
 /// Writes what every run leaves: the final fields, the series, the scenario and the report.
-fn finish(
-    simulation: &Simulation,
-    source: &ScenarioSource,
-    folder: &Path,
-    report: &mut Report,
-) -> Result<(), String> {
+fn finish(simulation: &Simulation, folder: &Path, report: &mut Report) -> Result<(), String> {
     let mut keep = |file: &str, kind: &str| {
         report.outputs.push(OutputFile { file: file.into(), kind: kind.to_owned() });
     };
@@ -114,7 +161,6 @@ fn finish(
     }
     folder::write_text(&folder.join("series.csv"), &simulation.series().to_csv())?;
     keep("series.csv", "series");
-    folder::write_text(&folder.join("scenario.ron"), source.text())?;
     keep("scenario.ron", "scenario");
     folder::write_json(&folder.join("report.json"), report)
 }

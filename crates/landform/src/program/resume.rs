@@ -1,0 +1,84 @@
+//! What `--resume` finds in the folder of a run.
+
+use std::fs;
+use std::path::Path;
+
+use landform_sim::checkpoint::Checkpoint;
+use landform_sim::scenario::ScenarioSource;
+use serde_json::Value;
+
+use super::{checkpoint_file, talk};
+
+/// What is left to do in the folder of a run.
+pub(super) enum Rest {
+    /// Everything after a checkpoint.
+    After(Checkpoint<'static>),
+    /// Everything: the run was killed before its first checkpoint.
+    Everything,
+    /// Nothing.
+    Nothing,
+}
+
+/// Looks into the folder of a run of the same scenario.
+///
+/// # Errors
+/// A message that says why the run cannot go on, and what to do.
+pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, String> {
+    let shown = folder.display();
+    if !folder.is_dir() {
+        return Err(format!("{shown} is no folder of a run; start the run without --resume"));
+    }
+    if checkpoint_file::path(folder).exists() {
+        let mut checkpoint = checkpoint_file::read(folder)?;
+        let text = checkpoint_file::take_scenario(&mut checkpoint);
+        same_scenario(folder, source.text(), &text)?;
+        return Ok(Rest::After(checkpoint));
+    }
+    let left = fs::read_to_string(folder.join("scenario.ron"));
+    let Ok(text) = left else { return Err(nothing_to_resume(folder)) };
+    if checkpoint_file::folder(folder).is_dir() {
+        same_scenario(folder, source.text(), &text)?;
+        talk::tell(&format!("{shown} holds no checkpoint yet: the run starts from the beginning"));
+        return Ok(Rest::Everything);
+    }
+    if !is_finished(folder) {
+        return Err(nothing_to_resume(folder));
+    }
+    same_scenario(folder, source.text(), &text)?;
+    Ok(Rest::Nothing)
+}
+
+/// Whether the report in the folder is that of a run that came to its end.
+fn is_finished(folder: &Path) -> bool {
+    let text = fs::read_to_string(folder.join("report.json")).unwrap_or_default();
+    serde_json::from_str::<Value>(&text).is_ok_and(|report| report["finished"] == true)
+}
+
+fn nothing_to_resume(folder: &Path) -> String {
+    let shown = folder.display();
+    format!(
+        "there is no checkpoint in {shown} to resume from; run the scenario again without \
+         --resume, into another folder or with --force"
+    )
+}
+
+/// Refuses another scenario than that of the run in the folder.
+fn same_scenario(folder: &Path, present: &str, before: &str) -> Result<(), String> {
+    if present == before {
+        return Ok(());
+    }
+    let pairs = present.lines().zip(before.lines());
+    let same = pairs.take_while(|(present, before)| present == before).count();
+    let line = |text: &str| match text.lines().nth(same) {
+        Some(line) => format!("`{}`", line.trim()),
+        None => "missing".to_owned(),
+    };
+    Err(format!(
+        "the run in {} is one of another scenario: line {} was {} and is now {}; resume with the \
+         scenario and the --set options of that run, or start a new run in another folder",
+        folder.display(),
+        same + 1,
+        line(before),
+        line(present)
+    ))
+}
