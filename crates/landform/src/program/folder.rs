@@ -54,7 +54,8 @@ pub(super) fn remove_leftovers(folder: &Path) {
         let path = entry.path();
         let name = entry.file_name().to_string_lossy().into_owned();
         let parts: Vec<&str> = name.rsplit('.').collect();
-        let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let is_number =
+            |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         let is_leftover = match parts[..] {
             ["tmp", number, process, _, ..] => {
                 name.starts_with('.') && is_number(number) && is_number(process)

@@ -44,6 +44,9 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         }
         let claim = Claim::new(&folder).map_err(Failure::Refused)?;
         take_up(rest, &folder, &mut simulation, &claim)?;
+        if arguments.resume {
+            folder::remove_leftovers(&folder);
+        }
         let size = simulation.lattice().size();
         let interval = arguments.checkpoint_every;
         simulation.keep_checkpoints(Box::new(FileKeeper::new(
@@ -69,7 +72,6 @@ fn take_up(
     simulation: &mut Simulation,
     claim: &Claim,
 ) -> Result<(), Failure> {
-    folder::remove_leftovers(folder);
     let Rest::After(checkpoint) = rest else {
         return claim.clear(folder).map_err(Failure::Refused);
     };
