@@ -10,6 +10,7 @@ mod repository;
 mod runs;
 mod scratch;
 mod small;
+mod tree;
 
 pub use bits::{bits_of, fnv};
 pub use book::{Block, blocks, links};
@@ -20,3 +21,4 @@ pub use repository::{files_below, repository, shown};
 pub use runs::Run;
 pub use scratch::Scratch;
 pub use small::{SMALL, changed};
+pub use tree::{differences, tree};

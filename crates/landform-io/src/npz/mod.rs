@@ -151,7 +151,8 @@ impl Source {
             let extra = self.take(container::EXTRA)?;
             let size = container::size_in(&extra);
             let entry = Entry { name, checksum: head.checksum, size, start };
-            if entry.head() != [head.bytes.as_slice(), entry.name.as_bytes(), &extra].concat() {
+            let found = [head.bytes.as_slice(), entry.name.as_bytes(), &extra].concat();
+            if entry.head() != found {
                 return damage("the head of a member is not as it was written");
             }
             let bytes = self.take(size)?;
@@ -187,26 +188,33 @@ impl Source {
 }
 
 /// A member from its bytes.
-fn member(name: &str, bytes: Vec<u8>) -> Result<Member<'static>, Trouble> {
+fn member(name: &str, mut bytes: Vec<u8>) -> Result<Member<'static>, Trouble> {
     let name = name.to_owned();
     if !name.ends_with(".npy") {
         return match String::from_utf8(bytes) {
-            Ok(text) => Ok(Member { name, content: Content::Text(Cow::Owned(text)) }),
+            Ok(text) => Ok(Member { name, content: Content::Text(text.into()) }),
             Err(_) => damage(format!("`{name}` is no text")),
         };
     }
-    let start =
-        bytes.get(8..10).map_or(0, |size| 10 + usize::from(size[0]) + (usize::from(size[1]) << 8));
-    let text = bytes.get(10..start).and_then(|text| std::str::from_utf8(text).ok());
-    let Some(found) = text.and_then(|text| header::parse_any(text).ok()) else {
+    let Some((start, kind, shape)) = described(&bytes) else {
         return damage(format!("`{name}` is no array"));
     };
-    let shape: Vec<usize> = found.shape.iter().map(|&size| size as usize).collect();
-    let content = Content::Array { kind: found.kind, shape, bytes: Cow::Borrowed(&[]) };
-    if bytes.get(..start) != Some(content.header().as_slice()) {
-        return damage(format!("the header of `{name}` is not as it was written"));
+    bytes.drain(..start);
+    let size = kind.get(1..).and_then(|size| size.parse().ok());
+    let needed = shape.iter().try_fold(size.unwrap_or(1), |all: usize, &one| all.checked_mul(one));
+    if needed != Some(bytes.len()) {
+        return damage(format!("`{name}` does not hold as many numbers as it says"));
     }
-    let Content::Array { kind, shape, .. } = content else { return damage("no array") };
-    let numbers = Cow::Owned(bytes[start..].to_vec());
-    Ok(Member { name, content: Content::Array { kind, shape, bytes: numbers } })
+    Ok(Member { name, content: Content::Array { kind, shape, bytes: bytes.into() } })
+}
+
+/// Where the numbers of an array start, their type and the shape.
+fn described(bytes: &[u8]) -> Option<(usize, String, Vec<usize>)> {
+    let length = bytes.get(8..10)?;
+    let start = 10 + usize::from(u16::from_le_bytes([length[0], length[1]]));
+    let header = bytes.get(..start)?;
+    let found = header::parse_any(std::str::from_utf8(&header[10..]).ok()?).ok()?;
+    let shape: Vec<usize> = found.shape.iter().map(|&size| size as usize).collect();
+    let written = header::bytes(&shape, &format!("{ORDER}{}", found.kind));
+    (written == header).then_some((start, found.kind, shape))
 }

@@ -66,6 +66,13 @@ macro_rules! elements {
                 }
             }
 
+            /// The same array with a copy of its numbers, unless it owns them already.
+            pub fn into_owned(self) -> Array<'static> {
+                match self {
+                    $(Self::$variant(values) => Array::$variant(values.into_owned().into()),)*
+                }
+            }
+
             /// The numbers as they lie in memory.
             pub fn bytes(&self) -> &[u8] {
                 match self {

@@ -18,3 +18,6 @@ pub use store::{Checkpoint, Loader, Saver};
 /// Name of the folder, in the output folder of a run, that holds its checkpoint and the
 /// unfinished files of its outputs. It is removed when the run is over.
 pub const FOLDER: &str = "checkpoint";
+
+#[cfg(test)]
+mod tests;

@@ -33,6 +33,12 @@ impl<'a> Checkpoint<'a> {
         Saver { checkpoint: self, path: path.into() }
     }
 
+    /// The same checkpoint with copies of all numbers, to keep it while the run goes on.
+    pub fn into_owned(self) -> Checkpoint<'static> {
+        let arrays = self.arrays.into_iter().map(|(name, array)| (name, array.into_owned()));
+        Checkpoint { arrays: arrays.collect(), texts: self.texts, unsaved: self.unsaved }
+    }
+
     /// Refuses a checkpoint some of whose values RON has no words for.
     ///
     /// # Errors

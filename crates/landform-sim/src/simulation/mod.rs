@@ -12,6 +12,9 @@ mod stage;
 mod state;
 mod turn;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use build::check;
 pub use build::{Limits, Simulation};
 pub use checkpoint::Keeper;

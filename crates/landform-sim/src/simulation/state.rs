@@ -99,21 +99,17 @@ impl State {
         Ok(())
     }
 
-    /// A hash of all stored fields, to tell runs apart that start differently.
+    /// A hash of all stored fields, to tell runs apart that start differently: FNV-1a by words
+    /// of eight bytes.
     pub(super) fn hash_of_fields(&self, world: &World) -> String {
         let mut fields = Checkpoint::default();
         self.fields.iter().for_each(|field| field.save(world, &mut fields.saver("fields")));
-        let hash = |hash: u64, bytes: &[u8]| {
-            // FNV-1a by words, which is as good at telling fields apart and eight times faster.
-            bytes.chunks(8).fold(hash, |hash, word| {
-                let word = word.iter().rev().fold(0, |all, &byte| all << 8 | u64::from(byte));
-                (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3)
-            })
-        };
-        let all = fields
-            .arrays
-            .values()
-            .fold(0xcbf2_9ce4_8422_2325, |all, array| hash(all, array.bytes()));
+        let step = |hash: u64, word: u64| (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        let all = fields.arrays.values().fold(0xcbf2_9ce4_8422_2325, |hash, array| {
+            let (words, rest) = array.bytes().as_chunks();
+            let hash = words.iter().fold(hash, |hash, word| step(hash, u64::from_le_bytes(*word)));
+            rest.iter().fold(hash, |hash, &byte| step(hash, u64::from(byte)))
+        });
         format!("{all:016x}")
     }
 }

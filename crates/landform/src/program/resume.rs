@@ -25,41 +25,41 @@ pub(super) enum Rest {
 /// A message that says why the run cannot go on, and what to do.
 pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, String> {
     let shown = folder.display();
-    if !folder.is_dir() {
-        return Err(format!("{shown} is no folder of a run; start the run without --resume"));
-    }
     if checkpoint_file::path(folder).exists() {
         let mut checkpoint = checkpoint_file::read(folder)?;
         let text = checkpoint_file::take_scenario(&mut checkpoint);
         same_scenario(folder, source.text(), &text)?;
         return Ok(Rest::After(checkpoint));
     }
-    let left = fs::read_to_string(folder.join("scenario.ron"));
-    let Ok(text) = left else { return Err(nothing_to_resume(folder)) };
-    if checkpoint_file::folder(folder).is_dir() {
+    let begun = checkpoint_file::folder(folder).is_dir() || is_empty(folder);
+    if !begun && !is_finished(folder) {
+        return Err(format!(
+            "there is no checkpoint in {shown} to resume from; run the scenario again without \
+             --resume, into another folder or with --force"
+        ));
+    }
+    if let Ok(text) = fs::read_to_string(folder.join("scenario.ron")) {
         same_scenario(folder, source.text(), &text)?;
-        talk::tell(&format!("{shown} holds no checkpoint yet: the run starts from the beginning"));
+    }
+    if begun {
+        talk::tell(&format!("no checkpoint in {shown} yet: the run starts from the beginning"));
         return Ok(Rest::Everything);
     }
-    if !is_finished(folder) {
-        return Err(nothing_to_resume(folder));
-    }
-    same_scenario(folder, source.text(), &text)?;
     Ok(Rest::Nothing)
+}
+
+/// Whether nothing lies in the folder, or there is none.
+fn is_empty(folder: &Path) -> bool {
+    match fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+    }
 }
 
 /// Whether the report in the folder is that of a run that came to its end.
 fn is_finished(folder: &Path) -> bool {
     let text = fs::read_to_string(folder.join("report.json")).unwrap_or_default();
     serde_json::from_str::<Value>(&text).is_ok_and(|report| report["finished"] == true)
-}
-
-fn nothing_to_resume(folder: &Path) -> String {
-    let shown = folder.display();
-    format!(
-        "there is no checkpoint in {shown} to resume from; run the scenario again without \
-         --resume, into another folder or with --force"
-    )
 }
 
 /// Refuses another scenario than that of the run in the folder.
