@@ -15,6 +15,8 @@ const SCENARIO: &str = r#"(
     domain: Grid(size: (32, 24)),
     initial: [(field: "sand", from: WhiteNoise(mean_m: 20.0, amplitude_m: 5.0))],
     stages: [(processes: [Smoothing()], stop: Iterations(1000000000))],
+    metrics: [FieldStatistic(field: "sand")],
+    measure_every: 1000,
     outputs: [Animation(file: "run.gif", every: 1000)],
 )
 "#;
@@ -71,7 +73,8 @@ fn a_checkpoint_of_another_run_is_refused_with_the_difference() {
         &["no checkpoint in mine", "without --resume"],
     );
     for interval in ["ten", "5", "-1s", "1e400s", "0.5it", "it", "5 parsecs", "infs"] {
-        let line = ["run", "run.ron", "--checkpoint-every", interval];
+        let interval = format!("--checkpoint-every={interval}");
+        let line = ["run", "run.ron", &interval];
         let message = Program::within(scratch.folder()).args(line).run().refused();
         assert!(message.contains("10min"), "{message}");
     }

@@ -142,9 +142,9 @@ impl Source {
         let (mut members, mut directory) = (Vec::new(), Vec::new());
         loop {
             let start = self.position;
-            let head = match Head::parse(&self.take(container::HEAD)?) {
-                Some(head) => head,
-                None => break self.check_tail(&directory, start)?,
+            let first = self.take(container::HEAD)?;
+            let Some(head) = Head::parse(&first) else {
+                break self.check_tail(first, &directory, start)?;
             };
             let name = self.take(u64::from(head.name_length).min(LONGEST_NAME))?;
             let Ok(name) = String::from_utf8(name) else { return damage("a name is no text") };
@@ -176,11 +176,15 @@ impl Source {
         Ok(bytes)
     }
 
-    /// Checks everything after the members, whose first bytes are read already.
-    fn check_tail(&mut self, directory: &[Entry], start: u64) -> Result<(), Trouble> {
-        let tail = container::tail(directory, start);
+    /// Checks everything after the members, whose `first` bytes are read already.
+    fn check_tail(
+        &mut self,
+        first: Vec<u8>,
+        directory: &[Entry],
+        start: u64,
+    ) -> Result<(), Trouble> {
         let rest = self.take(self.length - self.position)?;
-        match tail.get(container::HEAD as usize..) == Some(&rest) {
+        match container::tail(directory, start) == [first, rest].concat() {
             true => Ok(()),
             false => damage("the directory of the archive is not as it was written"),
         }

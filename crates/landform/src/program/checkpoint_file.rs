@@ -140,18 +140,19 @@ impl Claim {
         }
     }
 
-    /// Forgets what an earlier run left to resume from.
+    /// Forgets what tells of an earlier run: its checkpoint, and the report that it is over.
     ///
     /// # Errors
     /// A message when that is impossible.
     pub(super) fn clear(&self, run: &Path) -> Result<(), String> {
-        let path = path(run);
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(format!("cannot remove {}: {error}", path.display()))
+        [path(run), run.join("report.json")].iter().try_for_each(|path| {
+            match fs::remove_file(path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    Err(format!("cannot remove {}: {error}", path.display()))
+                }
+                _ => Ok(()),
             }
-            _ => Ok(()),
-        }
+        })
     }
 
     /// Ends the claim; nothing is left to resume from when the run is `over`.

@@ -25,6 +25,11 @@ pub(super) enum Rest {
 /// A message that says why the run cannot go on, and what to do.
 pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, String> {
     let shown = folder.display();
+    if is_finished(folder) {
+        let text = fs::read_to_string(folder.join("scenario.ron")).unwrap_or_default();
+        same_scenario(folder, source.text(), &text)?;
+        return Ok(Rest::Nothing);
+    }
     if checkpoint_file::path(folder).exists() {
         let mut checkpoint = checkpoint_file::read(folder)?;
         let text = checkpoint_file::take_scenario(&mut checkpoint);
@@ -32,7 +37,7 @@ pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Strin
         return Ok(Rest::After(checkpoint));
     }
     let begun = checkpoint_file::folder(folder).is_dir() || is_empty(folder);
-    if !begun && !is_finished(folder) {
+    if !begun {
         return Err(format!(
             "there is no checkpoint in {shown} to resume from; run the scenario again without \
              --resume, into another folder or with --force"
@@ -41,11 +46,8 @@ pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Strin
     if let Ok(text) = fs::read_to_string(folder.join("scenario.ron")) {
         same_scenario(folder, source.text(), &text)?;
     }
-    if begun {
-        talk::tell(&format!("no checkpoint in {shown} yet: the run starts from the beginning"));
-        return Ok(Rest::Everything);
-    }
-    Ok(Rest::Nothing)
+    talk::tell(&format!("no checkpoint in {shown} yet: the run starts from the beginning"));
+    Ok(Rest::Everything)
 }
 
 /// Whether nothing lies in the folder, or there is none.
