@@ -45,7 +45,7 @@ const PILES: &str = r#"(
         (name: "rest", processes: [Smoothing(diffusivity_m2: 0.1)], stop: Iterations(8)),
     ],
     metrics: [Avalanches(), FieldStatistic(field: "bed", statistic: Mean)],
-    outputs: [Animation(file: "grains.gif", field: "grains", look: Flat(), every: 4)],
+    outputs: [Animation(file: "grains.gif", field: "grains", look: Flat(range: (0.0, 3.0)), every: 4)],
 )"#;
 
 /// Agents that are born, move on and die.
@@ -58,7 +58,7 @@ const AGENTS: &str = r#"(
         (name: "ash", processes: [LivingCells(alive_share: 0.2)], stop: Iterations(30)),
     ],
     metrics: [FieldStatistic(field: "forest"), FieldStatistic(field: "burnt", statistic: Sum)],
-    outputs: [Animation(file: "fire.apng", field: "forest", look: Flat(), every: 10)],
+    outputs: [Animation(file: "fire.apng", field: "forest", look: Flat(range: (0.0, 2.0)), every: 10)],
 )"#;
 
 /// A scenario in a folder of its own, with what an unbroken run of it left.

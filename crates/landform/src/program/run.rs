@@ -39,6 +39,10 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
             false => Rest::Everything,
         };
         if matches!(rest, Rest::Nothing) {
+            if checkpoint_file::folder(&folder).is_dir() {
+                // It was killed while it cleaned up.
+                Claim::new(&folder).map_err(Failure::Refused)?.release(&folder, true);
+            }
             talk::tell(&format!("the run in {} is over: nothing is left to do", folder.display()));
             return Ok(());
         }
