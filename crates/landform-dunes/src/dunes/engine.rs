@@ -5,12 +5,11 @@ use landform_sim::random::{RandomStream, unit};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::avalanche::{AvalancheCounts, Layers, settle};
+use super::avalanche::{AvalancheCounts, Bands, Layers, settle};
 use super::error::{DuneError, check_length};
 use super::feed::Feed;
 use super::plane::Plane;
 use super::shadow::range;
-use super::sweep::Changes;
 use super::transport::{Band, Chances, Flight, SUB_STEPS, SubStep, survey, transport};
 use super::wind::Directions;
 use super::{DuneSettings, Exposure, Shelter, TransportCounts, WindLine};
@@ -47,7 +46,7 @@ struct Scratch {
     sheltered: Vec<bool>,
     ground: Vec<u8>,
     bands: Vec<Band>,
-    changes: Changes,
+    avalanches: Bands,
 }
 
 impl Engine {
@@ -200,9 +199,9 @@ impl Engine {
     }
 
     fn avalanche(&mut self, bed: &[f64], sand: &mut [f64]) -> AvalancheCounts {
-        let Scratch { surface, changes, .. } = &mut self.scratch;
+        let Scratch { surface, avalanches, .. } = &mut self.scratch;
         let mut layers = Layers { bed, sand, surface };
-        settle(&self.lattice, &self.settings.avalanche, self.slab, &mut layers, changes)
+        settle(&self.lattice, &self.settings.avalanche, self.slab, &mut layers, avalanches)
     }
 
     /// Works out the surface and gives its relief in metres. Avalanches only lower the relief,

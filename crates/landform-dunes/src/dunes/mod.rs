@@ -15,6 +15,7 @@
 //! - [`mod@reference`]: the same model, literally and serially, for reading and for tests.
 
 mod avalanche;
+mod band;
 mod cone;
 mod cone_sums;
 mod crest_lines;
@@ -34,7 +35,7 @@ mod shadow;
 mod shadow_error;
 mod shelter;
 mod smoothing;
-mod sweep;
+mod stencil;
 mod transport;
 mod wind;
 

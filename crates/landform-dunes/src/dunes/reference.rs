@@ -6,11 +6,12 @@
 //! same in the mean, not slab by slab. [`shadow`] and [`settle`] are the references of
 //! [`cast_shadow`](super::cast_shadow) and of the engine's avalanches, which give their bits.
 
-use landform_graph::Lattice;
+use landform_graph::{Connectivity, Lattice};
 use landform_sim::random::{RandomStream, unit};
 
-use super::avalanche::{Family, Layers, Part, SlideRule, families};
+use super::avalanche::{BAND, Layers};
 use super::error::DuneError;
+use super::stencil::{STEPS, SlideRule, TOLERANCE, first_look};
 use super::{AvalancheSettings, Axis, DuneSettings, ShadowSettings, WindLine};
 
 /// Whether `node` of a surface lies in shadow: looks upwind node by node.
@@ -60,7 +61,7 @@ pub fn shadow(
     }
 }
 
-/// Lets sand come to rest by rounds over every edge; gives the number of rounds.
+/// Lets sand come to rest, looking at every edge of every node again and again.
 ///
 /// `bed` and `sand` in metres; `slab_m` at most tan(repose) times the spacing, else the slides
 /// may never end and only the allowed number of sweeps stops them.
@@ -70,41 +71,132 @@ pub fn settle(
     slab_m: f64,
     bed: &[f64],
     sand: &mut [f64],
-) -> u32 {
+) {
     let mut surface: Vec<f64> = bed.iter().zip(&*sand).map(|(bed, sand)| bed + sand).collect();
-    let families = families(lattice, settings.repose(), slab_m);
-    let mut layers = Layers { bed, sand, surface: &mut surface };
-    for round in 1..=settings.most_sweeps {
-        let mut moved = false;
-        for family in &families {
-            for node in 0..lattice.node_count() {
-                if let Some(end) = edge(lattice, family, node) {
-                    moved |= family.rule.slide(&mut layers, node, end) > 0.0;
-                }
-            }
+    let layers = Layers { bed, sand, surface: &mut surface };
+    let mut slope = Slope { lattice, repose: settings.repose(), slab_m, layers, rows: Vec::new() };
+    let height = lattice.height();
+    let from = |first: usize| (first..height).step_by(BAND);
+    let bands = from(0).chain(from(BAND / 2)).map(|row| (row..height.min(row + BAND)).collect());
+    let mut bands: Vec<Vec<usize>> = bands.collect();
+    if lattice.is_periodic(1) {
+        let count = BAND.min(height);
+        bands.push((0..count).map(|row| (height - count / 2 + row) % height).collect());
+    }
+    for _ in 0..settings.most_sweeps {
+        let mut slides = 0;
+        for band in &bands {
+            slope.rows.clone_from(band);
+            slides += slope.settle();
         }
-        if !moved {
-            return round;
+        if slides == 0 {
+            return;
         }
     }
-    settings.most_sweeps
 }
 
-/// The node that the edge of a family from `node` ends in, if it has one there.
-fn edge(lattice: &Lattice, family: &Family, node: usize) -> Option<usize> {
-    let place = lattice.coordinates(node);
-    let [column, row, _] = place;
-    if family.even_nodes && (column + row) % 2 == 1 {
-        return None;
+/// Rows of a lattice that come to rest together.
+struct Slope<'a> {
+    lattice: &'a Lattice,
+    repose: f64,
+    slab_m: f64,
+    layers: Layers<'a>,
+    rows: Vec<usize>,
+}
+
+impl Slope<'_> {
+    /// Lets the sand of the rows come to rest; gives the number of slides.
+    fn settle(&mut self) -> u64 {
+        let mut slides = 0;
+        for row in self.rows.clone() {
+            let mut unstable = Vec::new();
+            for k in [0, 3, 6, 7] {
+                for column in self.columns(k) {
+                    let node = self.lattice.node([column, row, 0]);
+                    let Some(end) = self.neighbour(node, k) else { continue };
+                    for (upper, lower) in [(node, end), (end, node)] {
+                        let step = self.layers.surface[upper] - self.layers.surface[lower];
+                        if step > self.rule(k).trigger() {
+                            unstable.push(upper);
+                        }
+                    }
+                }
+            }
+            while let Some(node) = unstable.pop() {
+                slides += self.follow(node, &mut unstable);
+            }
+        }
+        slides
     }
-    let along = family.rows;
-    let part = match place[along] {
-        last if last + 1 == lattice.size()[along] => Part::Closing,
-        even if even % 2 == 0 => Part::Even,
-        _ => Part::Odd,
-    };
-    let step = [family.columns, family.rows as isize, 0];
-    (part == family.part).then(|| lattice.offset(place, step)).flatten()
+
+    /// Columns from west to east; those that an edge in direction `k` leaves over the border
+    /// come last.
+    fn columns(&self, k: usize) -> impl Iterator<Item = usize> + use<> {
+        let width = self.lattice.width();
+        let first = usize::from(STEPS[k][0] < 0);
+        (first..width).chain(0..first)
+    }
+
+    /// Lets sand slide from a node, follows it down until it rests, and lists where else sand
+    /// may slide now.
+    fn follow(&mut self, mut node: usize, unstable: &mut Vec<usize>) -> u64 {
+        let mut slides = 0;
+        while let Some((k, lower, step)) = self.steepest(node) {
+            self.rule(k).slide(&mut self.layers, node, lower, step);
+            slides += 1;
+            unstable.extend(self.steepest(node).map(|_| node));
+            for k in 0..8 {
+                let above = self.neighbour(node, k);
+                unstable.extend(above.filter(|&above| self.slope(above, node, k) > 0.0));
+            }
+            node = lower;
+        }
+        slides
+    }
+
+    /// Direction, neighbour and step of the steepest edge that sand slides down.
+    fn steepest(&self, node: usize) -> Option<(usize, usize, f64)> {
+        let [column, row, _] = self.lattice.coordinates(node);
+        let count = if self.lattice.connectivity() == Connectivity::Four { 4 } else { 8 };
+        let mut found = (0.0, None);
+        for turn in 0..count {
+            let k = (first_look(column, row) + turn) % count;
+            let Some(lower) = self.neighbour(node, k) else { continue };
+            let slope = self.slope(node, lower, k);
+            if slope > found.0 && self.layers.sand[node] > 0.0 {
+                let step = self.layers.surface[node] - self.layers.surface[lower];
+                found = (slope, Some((k, lower, step)));
+            }
+        }
+        found.1
+    }
+
+    /// Slope down an edge in direction `k`; zero where it is not too steep.
+    fn slope(&self, upper: usize, lower: usize, k: usize) -> f64 {
+        let step = self.layers.surface[upper] - self.layers.surface[lower];
+        let slope = step * (1.0 / self.length(k));
+        if slope > self.repose + TOLERANCE { slope } else { 0.0 }
+    }
+
+    /// The neighbour of a node in direction `k`, if it has one in these rows.
+    fn neighbour(&self, node: usize, k: usize) -> Option<usize> {
+        let [columns, rows] = STEPS[k];
+        let place = self.lattice.coordinates(node);
+        let end = self.lattice.offset(place, [columns, rows, 0])?;
+        let at = |row: usize| self.rows.iter().position(|&known| known == row);
+        let [from, to] = [at(place[1])?, at(self.lattice.coordinates(end)[1])?];
+        let is_next = from as isize + rows == to as isize;
+        (is_next && self.lattice.neighbours(node).any(|edge| edge.node == end)).then_some(end)
+    }
+
+    fn length(&self, k: usize) -> f64 {
+        let [columns, rows] = STEPS[k];
+        self.lattice.step_length([columns as i8, rows as i8, 0])
+    }
+
+    fn rule(&self, k: usize) -> SlideRule {
+        SlideRule::new(self.repose, self.length(k), self.slab_m)
+    }
 }
 
 /// One tick of Werner's model: every node is polled once, in random order.

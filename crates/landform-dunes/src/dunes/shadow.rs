@@ -215,35 +215,40 @@ impl<'a> Caster<'a> {
             let run = (1..RUN.min(width - step))
                 .find(|&on| self.wind.shift((step + on) as isize) != shift)
                 .unwrap_or(RUN.min(width - step));
+            let columns = match self.wind.is_forward() {
+                true => step..step + run,
+                false => width - step - run..width - step,
+            };
+            // The tilt of each node from west to east, the same in all rows.
+            let mut tilts: [f64; RUN] = std::array::from_fn(|on| (step + on) as f64 * self.drop);
+            if !self.wind.is_forward() {
+                tilts[..run].reverse();
+            }
             let rows = surface.chunks_exact(width).zip(shaded.chunks_exact_mut(width));
             for (peak, (heights, shaded)) in peaks.iter_mut().zip(rows) {
-                *peak = self.follow(*peak, step..step + run, heights, shaded);
+                let (heights, shaded) = (&heights[columns.clone()], &mut shaded[columns.clone()]);
+                *peak = match (
+                    <&[f64; RUN]>::try_from(heights),
+                    <&mut [bool; RUN]>::try_from(&mut *shaded),
+                ) {
+                    (Ok(heights), Ok(shaded)) => self.follow(*peak, &tilts, heights, shaded),
+                    _ => self.follow(*peak, &tilts[..run], heights, shaded),
+                };
             }
             step += run;
         }
     }
 
-    /// Follows a line over at most [`RUN`] steps in one row; gives its maximum afterwards.
-    fn follow(
-        &self,
-        peak: f64,
-        steps: std::ops::Range<usize>,
-        heights: &[f64],
-        shaded: &mut [bool],
-    ) -> f64 {
-        let pass = |peak: f64, (step, (&height, shaded)): (usize, (&f64, &mut bool))| {
-            let height = height + step as f64 * self.drop;
+    /// Follows a line over a few nodes of one row; gives its maximum afterwards.
+    #[inline(always)]
+    fn follow(&self, peak: f64, tilts: &[f64], heights: &[f64], shaded: &mut [bool]) -> f64 {
+        let pass = |peak: f64, ((&tilt, &height), shaded): ((&f64, &f64), &mut bool)| {
+            let height = height + tilt;
             *shaded = peak > height;
             higher(peak, height)
         };
-        if self.wind.is_forward() {
-            let nodes = heights[steps.clone()].iter().zip(&mut shaded[steps.clone()]);
-            steps.zip(nodes).fold(peak, pass)
-        } else {
-            let columns = heights.len() - steps.end..heights.len() - steps.start;
-            let nodes = heights[columns.clone()].iter().zip(&mut shaded[columns]);
-            steps.zip(nodes.rev()).fold(peak, pass)
-        }
+        let nodes = tilts.iter().zip(heights).zip(shaded);
+        if self.wind.is_forward() { nodes.fold(peak, pass) } else { nodes.rev().fold(peak, pass) }
     }
 
     /// Wind along columns: bands of rows, each with the maxima of all lines side by side.
