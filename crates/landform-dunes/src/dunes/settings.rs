@@ -78,8 +78,8 @@ pub struct AvalancheSettings {
     /// On a lattice without diagonals, a slope across both axes may reach
     /// atan(sqrt(2) tan(repose)): 42.6 degrees for 33. Default 33.
     pub repose_deg: f64,
-    /// Number of sweeps over the lattice after which a pass gives up. Default 100000; a pass
-    /// needs about as many as the longest slope has nodes.
+    /// Number of sweeps over the bands of the lattice after which a pass gives up, and of slides
+    /// for each node of a band in one sweep. Default 100000; a pass needs a few.
     pub most_sweeps: u32,
 }
 
