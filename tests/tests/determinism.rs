@@ -24,6 +24,7 @@ struct Case {
 
 const SAND: &str = "(field: \"sand\", from: WhiteNoise(mean_m: 12.0, amplitude_m: 12.0))";
 const HILLS: &str = "(field: \"bed\", from: SmoothNoise(standard_deviation_m: 8.0))";
+const LAKE: &str = "(field: \"water\", from: WhiteNoise(mean_m: 3.0, amplitude_m: 3.0))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
@@ -64,6 +65,8 @@ const GOLDEN: &[Case] = &[
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
     case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
     case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
+    case("Pipes()", &[HILLS, LAKE], ISLAND, 0x6a15_acb4_bd24_52f0),
+    case("Trails(walkers: 500)", &[HILLS], ISLAND, 0x4d6b_83ea_c61a_c0e9),
     case("ForestFire(growth: 0.01, lightning: 0.001)", &[], ISLAND, 0x6e18_8e9e_b651_7e2c),
 ];
 
@@ -98,6 +101,8 @@ impl Case {
             "Life" => "alive",
             "LivingCells" => "cells",
             "ForestFire" => "forest",
+            "Pipes" => "water",
+            "Trails" => "wear",
             _ => "surface",
         }
     }

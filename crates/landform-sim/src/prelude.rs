@@ -8,7 +8,7 @@ pub use landform_graph::{Boundary, Connectivity, Edge, Lattice};
 pub use crate::agent::{AgentGroup, Agents, presence};
 pub use crate::clock::Clock;
 pub use crate::fault::Fault;
-pub use crate::field::{Bed, Field, FieldMut, NodeField, Sand};
+pub use crate::field::{Bed, EdgeField, Field, FieldMut, NodeField, OnEdges, Sand, Water};
 pub use crate::initial::{InitialCondition, InitialContext};
 pub use crate::ledger::{Budget, Ledger};
 pub use crate::metric::Metric;

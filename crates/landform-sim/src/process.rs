@@ -10,7 +10,7 @@ use landform_graph::Lattice;
 
 use crate::agent::{AgentGroup, AgentState, Group, apply_staged, restore_group, save_group};
 use crate::checkpoint::{Damage, Keep, Loader, Saver};
-use crate::field::{FieldEntry, NodeField};
+use crate::field::{EdgeField, EdgeFieldEntry, FieldEntry, NodeField, OnEdges};
 use crate::ledger::Budget;
 use crate::nodes::Node;
 use crate::parameters::{Parameters, Problem};
@@ -66,6 +66,7 @@ pub enum Access {
 #[derive(Default)]
 pub struct Declaration {
     pub(crate) fields: Vec<(FieldEntry, Access)>,
+    pub(crate) edges: Vec<EdgeFieldEntry>,
     pub(crate) groups: Vec<GroupEntry>,
     pub(crate) budgets: Vec<Budget>,
     pub(crate) resources: Vec<ResourceEntry>,
@@ -101,6 +102,17 @@ impl Declaration {
     ) -> &mut Self {
         let entry = FieldEntry::derived(name, unit, meaning, values);
         self.fields.push((entry, Access::Reads));
+        self
+    }
+
+    /// The process uses field `F` on directed edges, which is zero at first.
+    pub fn edges<F: EdgeField>(&mut self) -> &mut Self {
+        self.edges.push(EdgeFieldEntry::of::<F>());
+        self.resources.push(ResourceEntry {
+            id: TypeId::of::<OnEdges<F>>(),
+            name: F::NAME,
+            codec: Some((OnEdges::<F>::save, OnEdges::<F>::restore)),
+        });
         self
     }
 

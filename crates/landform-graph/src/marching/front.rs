@@ -205,7 +205,7 @@ mod tests {
     fn a_march_ends_when_told_and_the_next_starts_afresh() {
         let lattice = Lattice::plane([9, 9], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
         let mut front = Front::new();
-        let mut reached = vec![false; 81];
+        let mut reached = [false; 81];
         let mut spread = |_: usize, edge: &Edge| {
             let first = !std::mem::replace(&mut reached[edge.node], true);
             first.then_some(edge.node as f64)

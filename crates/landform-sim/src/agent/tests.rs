@@ -5,7 +5,7 @@ use landform_graph::{Boundary, Connectivity, Lattice};
 
 use super::*;
 use crate::clock::Clock;
-use crate::nodes::{Node, spawn_nodes};
+use crate::nodes::{Node, Space, spawn_nodes};
 
 struct Walkers;
 
@@ -17,9 +17,14 @@ impl AgentGroup for Walkers {
 
 fn world(nodes: usize) -> World {
     let lattice = Lattice::plane([nodes, 1], 1.0, Connectivity::Four, [Boundary::Open; 2]);
+    world_on(lattice.expect("lattice"))
+}
+
+fn world_on(lattice: Lattice) -> World {
     let mut world = World::new();
     world.register_required_components::<Node, AgentState<Walkers>>();
-    spawn_nodes(&mut world, lattice.expect("lattice"));
+    let nodes = lattice.node_count();
+    spawn_nodes(&mut world, lattice);
     world.insert_resource(Group::<Walkers>::new(nodes));
     world.insert_resource(Clock::default());
     world
@@ -114,4 +119,76 @@ fn a_move_carries_the_state_and_respects_claims() {
         let agents = agents.view();
         assert_eq!((agents.get(3), agents.get(4), *agents.globals()), (Some(&23), Some(&44), 2));
     });
+}
+
+/// A row of agents that all step east: the one in front moves, the others find their targets
+/// taken, since every agent sees the group as it was.
+#[test]
+fn a_chain_moves_from_its_head() {
+    let mut world = world(10);
+    let step = |mut agents: Agents<Walkers>| {
+        agents.view().visit(|agents, node| {
+            agents.move_to(node, node + 1);
+        });
+    };
+    iterate(&mut world, |mut agents: Agents<Walkers>| {
+        let mut agents = agents.view();
+        (2..5).for_each(|node| assert!(agents.register(node, node as u32)));
+    });
+    let mut rows = Vec::new();
+    for _ in 0..4 {
+        iterate(&mut world, step);
+        rows.push(members(&world));
+    }
+    assert_eq!(rows, [[2, 3, 5], [2, 4, 6], [3, 5, 7], [4, 6, 8]]);
+    iterate(&mut world, |mut agents: Agents<Walkers>| {
+        let agents = agents.view();
+        assert_eq!([4, 6, 8].map(|node| agents.get(node).copied()), [Some(2), Some(3), Some(4)]);
+    });
+}
+
+/// Of many claims on one node the first in node order is granted, and the rest stay unharmed.
+#[test]
+fn of_many_claims_the_first_is_granted() {
+    let mut world = world(9);
+    iterate(&mut world, |mut agents: Agents<Walkers>| {
+        let mut agents = agents.view();
+        assert_eq!([8, 0, 6, 2].map(|node| agents.register(node, node as u32)), [true; 4]);
+    });
+    iterate(&mut world, |mut agents: Agents<Walkers>| {
+        let mut granted = Vec::new();
+        let mut agents = agents.view();
+        agents.visit(|agents, node| granted.push((node, agents.move_to(node, 4))));
+        assert_eq!(granted, [(0, true), (2, false), (6, false), (8, false)]);
+        assert!(!agents.register(4, 99), "a birth comes too late as well");
+    });
+    assert_eq!(members(&world), [2, 4, 6, 8]);
+    assert_eq!(presence::<Walkers>(&world), [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
+}
+
+/// Births at every node of a volume at once, then deaths of all but one.
+#[test]
+fn a_volume_fills_and_empties_in_an_iteration() {
+    let lattice = Lattice::volume([5, 6, 7], 1.0, Connectivity::Voxel26, [Boundary::Periodic; 3]);
+    let mut world = world_on(lattice.expect("lattice"));
+    iterate(&mut world, |space: Res<Space>, mut agents: Agents<Walkers>| {
+        let mut agents = agents.view();
+        assert!((0..space.node_count()).rev().all(|node| agents.register(node, node as u32)));
+    });
+    assert!(members(&world).into_iter().eq(0..210));
+    iterate(&mut world, |space: Res<Space>, mut agents: Agents<Walkers>| {
+        let mut agents = agents.view();
+        agents.visit(|agents, node| {
+            let around: usize =
+                space.neighbours(node).filter_map(|edge| agents.get(edge.node)).count();
+            assert_eq!(around, 26);
+            assert_eq!(agents.get(node), Some(&(node as u32)));
+            if node != 100 {
+                assert!(agents.deregister(node));
+            }
+            *agents.globals_mut() += 1;
+        });
+        assert_eq!((agents.len(), *agents.globals()), (210, 210), "deaths are staged");
+    });
+    assert_eq!(members(&world), [100]);
 }

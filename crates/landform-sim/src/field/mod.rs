@@ -18,11 +18,13 @@
 //! ```
 
 mod column;
+mod edges;
 mod param;
 mod table;
 mod vocabulary;
 
 pub use column::{Column, NodeField, Number};
+pub use edges::{EdgeField, EdgeFieldEntry, OnEdges};
 pub use param::{Field, FieldMut};
 pub use table::{FieldEntry, FieldTable, UnknownField, read_column, stored_values, surface};
-pub use vocabulary::{Bed, Sand};
+pub use vocabulary::{Bed, Sand, Water};

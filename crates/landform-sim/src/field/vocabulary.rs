@@ -22,3 +22,14 @@ impl NodeField for Sand {
     const MEANING: &'static str = "thickness of the loose sand on the bed";
     const LEAST: f64 = 0.0;
 }
+
+/// Thickness of the water on the ground.
+pub struct Water;
+
+impl NodeField for Water {
+    type Value = f64;
+    const NAME: &'static str = "water";
+    const UNIT: &'static str = "m";
+    const MEANING: &'static str = "thickness of the water on the ground";
+    const LEAST: f64 = 0.0;
+}

@@ -70,6 +70,7 @@ impl Simulation {
         groups.iter().for_each(|group| (group.declare)(world));
         spawn_nodes(world, domain.lattice.clone());
         groups.iter().for_each(|group| (group.make)(world, domain.lattice.node_count()));
+        uses.iter().flat_map(|uses| &uses.edges).for_each(|e| (e.make)(world, &domain.lattice));
         world.insert_resource(fields);
         world.insert_resource(Clock { seed: scenario.seed, ..Clock::default() });
         world.insert_resource(Ledger::default());
@@ -122,6 +123,9 @@ pub(crate) fn check(scenario: &Scenario, folder: &Path, limits: Limits) -> Resul
     plan(scenario, folder, limits).map(|_| ())
 }
 
+/// Directions of the lattices with the fewest, for an estimate before there is a lattice.
+const LEAST_DIRECTIONS: usize = 4;
+
 /// Makes the domain and checks everything against it, within the limits.
 fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Problem> {
     let declare = |stage: &StageEntry| -> Vec<Declaration> {
@@ -130,11 +134,12 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     let declarations: Vec<Vec<Declaration>> = scenario.stages.iter().map(declare).collect();
     let fields = collect_fields(&declarations)?;
     let uses: Vec<Declaration> = declarations.into_iter().flatten().collect();
-    let bytes = memory::bytes_per_node(fields.bytes_per_node(), &uses);
+    let bytes = |directions| memory::bytes_per_node(fields.bytes_per_node(), &uses, directions);
     if let Some(nodes) = scenario.domain.value.nodes() {
-        memory::check(nodes, bytes, limits.memory_bytes)?;
+        memory::check(nodes, bytes(LEAST_DIRECTIONS), limits.memory_bytes)?;
     }
     let domain = scenario.domain.value.make(folder).map_err(|problem| below("domain", problem))?;
+    let bytes = bytes(domain.lattice.directions());
     memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
     check_processes(&scenario.stages, &domain.lattice)?;
     check_names(scenario, &fields, &uses)?;

@@ -29,6 +29,10 @@ pub(super) fn check(world: &mut World, turn: &Turn) -> Result<(), RunError> {
     for field in &turn.written {
         check_finite(world, field, turn.name, iteration)?;
     }
+    if let Some(edges) = turn.edges.iter().find(|edges| !(edges.finite)(world)) {
+        let message = format!("field `{}` on edges is no longer finite", edges.name);
+        return Err(RunError::Fault { process: process(), message, iteration });
+    }
     for budget in &turn.budgets {
         let measured = (budget.measure)(world);
         let checked = world.resource_scope::<Ledger, _>(|world, mut ledger| {

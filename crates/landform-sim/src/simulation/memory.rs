@@ -7,11 +7,16 @@ use crate::process::Declaration;
 /// Bytes a node that building a run takes besides the fields: buffers of doubles to fill one.
 const BUILD_BYTES: usize = 24;
 
-/// Bytes a node of a run with these declarations.
-pub(super) fn bytes_per_node(fields: usize, declarations: &[Declaration]) -> usize {
+/// Bytes a node of a run with these declarations on a lattice of so many directions.
+pub(super) fn bytes_per_node(
+    fields: usize,
+    declarations: &[Declaration],
+    directions: usize,
+) -> usize {
+    let edges: usize = declarations.iter().flat_map(|uses| &uses.edges).map(|e| e.bytes).sum();
     let groups: usize = declarations.iter().flat_map(|uses| &uses.groups).map(|g| g.bytes).sum();
     let scratch = declarations.iter().map(|uses| uses.scratch).max().unwrap_or(0);
-    ENTITY_BYTES + BUILD_BYTES + fields + groups + scratch
+    ENTITY_BYTES + BUILD_BYTES + fields + edges * directions + groups + scratch
 }
 
 /// Refuses a run of `nodes` nodes that would not fit into `limit` bytes.

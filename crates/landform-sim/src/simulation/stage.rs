@@ -33,6 +33,7 @@ pub(super) fn begin(
         let turn = Turn {
             name: process.name,
             written: written.map(|(entry, _)| *entry).collect(),
+            edges: uses.edges.clone(),
             groups: uses.groups.clone(),
             budgets: uses.budgets.clone(),
             iterate,

@@ -2,7 +2,7 @@
 
 use bevy_ecs::schedule::Schedule;
 
-use crate::field::FieldEntry;
+use crate::field::{EdgeFieldEntry, FieldEntry};
 use crate::ledger::Budget;
 use crate::process::GroupEntry;
 
@@ -10,6 +10,7 @@ use crate::process::GroupEntry;
 pub(super) struct Turn {
     pub(super) name: &'static str,
     pub(super) written: Vec<FieldEntry>,
+    pub(super) edges: Vec<EdgeFieldEntry>,
     pub(super) budgets: Vec<Budget>,
     pub(super) groups: Vec<GroupEntry>,
     pub(super) iterate: Schedule,
