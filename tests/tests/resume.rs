@@ -27,6 +27,8 @@ const DUNES: &str = r#"(
         Animation(file: "films/growth.gif", every: 3),
         FieldFile(file: "surface.tif", when: StageEnds),
         Mesh(file: "surface.glb"),
+        FieldSeries(file: "fields.nc", fields: ["sand", "bed"], when: Any([Every(3), StageEnds])),
+        Picture(file: "high.png", when: Above(metric: "sand_maximum_m", value: 30.0)),
     ],
 )"#;
 
@@ -57,8 +59,14 @@ const AGENTS: &str = r#"(
          stop: Iterations(70)),
         (name: "ash", processes: [LivingCells(alive_share: 0.2)], stop: Iterations(30)),
     ],
-    metrics: [FieldStatistic(field: "forest"), FieldStatistic(field: "burnt", statistic: Sum)],
-    outputs: [Animation(file: "fire.apng", field: "forest", look: Flat(range: (0.0, 2.0)), every: 10)],
+    metrics: [
+        FieldStatistic(field: "forest"), FieldStatistic(field: "burnt", statistic: Sum),
+        AgentCount(group: "trees"),
+    ],
+    outputs: [
+        AgentTable(file: "fires.csv", group: "fires", when: Every(20)),
+        Animation(file: "fire.apng", field: "forest", look: Flat(range: (0.0, 2.0)), every: 10),
+    ],
 )"#;
 
 /// A scenario in a folder of its own, with what an unbroken run of it left.

@@ -1,4 +1,4 @@
-//! Rasters and meshes, in and out.
+//! Rasters, series of fields and meshes, in and out.
 //!
 //! | format | read | written | metadata stand in |
 //! |---|---|---|---|
@@ -8,6 +8,7 @@
 //! | NumPy archive `.npz` ([`npz`]) | its own | whole numbers, f32, f64, texts | the archive |
 //! | 16-bit grey `.png` ([`png16`]) | no | yes | the file |
 //! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
+//! | NetCDF `.nc`, series of fields ([`netcdf`]) | no | f64 | the file |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
 //!
 //! The sidecar of `height.npy` is `height.npy.json` ([`Sidecar`]). Every reader takes
@@ -40,6 +41,7 @@ pub mod geotiff;
 mod limits;
 pub mod mesh;
 pub mod metadata;
+pub mod netcdf;
 pub mod npy;
 pub mod npz;
 #[cfg(feature = "exr")]

@@ -5,7 +5,7 @@ pub use bevy_ecs::change_detection::{Res, ResMut};
 pub use bevy_ecs::schedule::IntoScheduleConfigs;
 pub use landform_graph::{Boundary, Connectivity, Edge, Lattice};
 
-pub use crate::agent::{AgentGroup, Agents, presence};
+pub use crate::agent::{AgentGroup, Agents, Quantity, presence};
 pub use crate::clock::Clock;
 pub use crate::fault::Fault;
 pub use crate::field::{Bed, EdgeField, Field, FieldMut, NodeField, OnEdges, Sand, Water};

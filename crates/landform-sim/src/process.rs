@@ -8,7 +8,9 @@ use bevy_ecs::schedule::ScheduleLabel;
 use bevy_ecs::world::World;
 use landform_graph::Lattice;
 
-use crate::agent::{AgentGroup, AgentState, Group, apply_staged, restore_group, save_group};
+use crate::agent::{
+    AgentGroup, AgentState, Group, GroupListing, apply_staged, restore_group, save_group,
+};
 use crate::checkpoint::{Damage, Keep, Loader, Saver};
 use crate::field::{EdgeField, EdgeFieldEntry, FieldEntry, NodeField, OnEdges};
 use crate::ledger::Budget;
@@ -203,7 +205,7 @@ impl ResourceEntry {
 /// An agent group without its type.
 #[derive(Clone, Copy)]
 pub(crate) struct GroupEntry {
-    pub(crate) name: &'static str,
+    pub(crate) listing: GroupListing,
     pub(crate) save: Save,
     pub(crate) restore: Restore,
     pub(crate) bytes: usize,
@@ -215,7 +217,7 @@ pub(crate) struct GroupEntry {
 impl GroupEntry {
     fn of<G: AgentGroup>() -> Self {
         Self {
-            name: G::NAME,
+            listing: GroupListing::of::<G>(),
             save: save_group::<G>,
             restore: restore_group::<G>,
             bytes: size_of::<G::State>() + 8 + Group::<G>::BYTES,

@@ -3,10 +3,12 @@
 use bevy_ecs::world::World;
 use landform_graph::Lattice;
 
+use crate::agent::{GroupSnapshot, GroupTable, UnknownGroup};
 use crate::clock::Clock;
 use crate::domain::Domain;
 use crate::field::{FieldEntry, FieldTable, UnknownField};
 use crate::ledger::Ledger;
+use crate::metric::Series;
 use crate::nodes::Space;
 
 /// Read access to a run between two iterations.
@@ -16,6 +18,7 @@ pub struct Snapshot<'a> {
     domain: &'a Domain,
     stage_name: &'a str,
     title: &'a str,
+    series: &'a Series,
 }
 
 impl<'a> Snapshot<'a> {
@@ -24,8 +27,9 @@ impl<'a> Snapshot<'a> {
         domain: &'a Domain,
         title: &'a str,
         stage_name: &'a str,
+        series: &'a Series,
     ) -> Self {
-        Self { world, domain, stage_name, title }
+        Self { world, domain, stage_name, title, series }
     }
 
     /// Values of a stored or derived field, in node order.
@@ -47,6 +51,20 @@ impl<'a> Snapshot<'a> {
     /// All fields of the run.
     pub fn fields(&self) -> impl Iterator<Item = &'a FieldEntry> {
         self.world.resource::<FieldTable>().iter()
+    }
+
+    /// The agents of a group.
+    ///
+    /// # Errors
+    /// [`UnknownGroup`] lists the names there are.
+    pub fn group(&self, name: &str) -> Result<GroupSnapshot<'a>, UnknownGroup> {
+        let listing = self.world.resource::<GroupTable>().get(name)?;
+        Ok(GroupSnapshot::new(listing, self.world))
+    }
+
+    /// What was measured so far.
+    pub fn series(&self) -> &'a Series {
+        self.series
     }
 
     /// The lattice.

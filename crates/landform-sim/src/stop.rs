@@ -8,6 +8,7 @@ use crate::parameters::Problem;
 
 /// When a stage is over.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub enum Stop {
     /// When every process that has an end has reached it.
     #[default]
@@ -62,10 +63,9 @@ impl Stop {
                 Some(format!("{metric} = {latest} rose above {value}"))
             }
             Self::Steady { metric, change, measurements } => {
-                let values = series.values(metric);
-                let recent = values.get(values.len().checked_sub(*measurements)?..)?;
-                let low = recent.iter().copied().fold(f64::INFINITY, f64::min);
-                let high = recent.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let none = [f64::INFINITY, f64::NEG_INFINITY];
+                let widen = |[low, high]: [f64; 2], value: f64| [value.min(low), value.max(high)];
+                let [low, high] = series.recent(metric, *measurements)?.fold(none, widen);
                 (high - low <= change * high.abs().max(low.abs()))
                     .then(|| format!("{metric} is steady at {high}"))
             }
@@ -80,6 +80,15 @@ impl Stop {
             Self::Iterations(count) => Some(*count),
             Self::Any(rules) => rules.iter().filter_map(|rule| rule.latest_end(ends)).min(),
             _ => None,
+        }
+    }
+
+    /// Number of measurements that the rule looks at.
+    pub(crate) fn measurements(&self) -> usize {
+        match self {
+            Self::Steady { measurements, .. } => *measurements,
+            Self::Any(rules) => rules.iter().map(Self::measurements).max().unwrap_or(1),
+            _ => 1,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The built-in processes, initial conditions, metrics and outputs.
 
-use landform_sim::metric::FieldStatistic;
+use landform_sim::metric::{AgentCount, AgentStatistic, FieldStatistic};
 use landform_sim::registry::Registry;
 
 use crate::{inputs, metrics, outputs};
@@ -13,12 +13,18 @@ pub fn registry() -> Registry {
     landform_synth::register(&mut registry);
     landform_dunes::register(&mut registry);
     landform_lessons::register(&mut registry);
-    registry.metric::<FieldStatistic>().metric::<metrics::SpectralFalloff>();
+    registry
+        .metric::<FieldStatistic>()
+        .metric::<AgentCount>()
+        .metric::<AgentStatistic>()
+        .metric::<metrics::SpectralFalloff>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()
         .output::<outputs::Animation>()
         .output::<outputs::FieldFile>()
+        .output::<outputs::FieldSeries>()
+        .output::<outputs::AgentTable>()
         .output::<outputs::Mesh>();
     registry
 }

@@ -7,7 +7,7 @@ use bevy_ecs::world::World;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::NodeSet;
+use super::{NodeSet, Quantity, Tally};
 use crate::checkpoint::Keep;
 
 /// A group of agents, at most one at a node. Implement it for an empty marker type.
@@ -16,8 +16,10 @@ pub trait AgentGroup: Send + Sync + 'static {
     type State: Serialize + DeserializeOwned + Copy + Default + Send + Sync + 'static;
     /// What the whole group knows (search radius, largest value met, ...).
     type Globals: Keep + Default + Send + Sync + 'static;
-    /// Name of the group in reports.
+    /// Name of the group in scenarios, tables and reports.
     const NAME: &'static str;
+    /// Numbers of an agent's state that metrics and tables may name; none when missing.
+    const QUANTITIES: &'static [Quantity<Self::State>] = &[];
 }
 
 /// The component that holds the state of a group's agent at a node; meaningless where the
@@ -42,6 +44,9 @@ pub struct Group<G: AgentGroup> {
     pub(super) born: Vec<u32>,
     pub(super) births: Vec<(u32, G::State)>,
     pub(super) deaths: Vec<u32>,
+    /// Births that are the second half of a move.
+    pub(super) moves: usize,
+    pub(super) tally: Tally,
 }
 
 impl<G: AgentGroup> Group<G> {
@@ -55,12 +60,26 @@ impl<G: AgentGroup> Group<G> {
             born: vec![0; nodes],
             births: Vec::new(),
             deaths: Vec::new(),
+            moves: 0,
+            tally: Tally::default(),
         }
     }
 
     /// The members that there are, without what is staged.
     pub fn members(&self) -> &NodeSet {
         &self.members
+    }
+
+    /// How many agents there are and were.
+    pub fn tally(&self) -> Tally {
+        Tally { members: self.members.len() as u64, ..self.tally }
+    }
+
+    /// Counts what is about to become real.
+    fn count_staged(&mut self) {
+        let moves = std::mem::take(&mut self.moves);
+        self.tally.births += (self.births.len() - moves) as u64;
+        self.tally.deaths += (self.deaths.len() - moves) as u64;
     }
 
     /// Bytes that a group takes a node besides the component.
@@ -82,6 +101,7 @@ pub(crate) fn apply_staged<G: AgentGroup>(world: &mut World, tick: u32) {
     let mut states = world.query::<&mut AgentState<G>>();
     world.resource_scope::<Group<G>, ()>(|world, mut group| {
         let group = &mut *group;
+        group.count_staged();
         for node in group.deaths.drain(..) {
             group.members.remove(node as usize);
             group.leaving.remove(node as usize);

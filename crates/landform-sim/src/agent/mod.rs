@@ -6,11 +6,16 @@
 //! take effect when the process that asked for them has finished its turn.
 
 mod group;
+mod listing;
 mod members;
 mod state;
 mod view;
 
 pub use group::{AgentGroup, AgentState, Group, presence};
+pub use listing::{
+    GroupListing, GroupSnapshot, GroupTable, GroupUse, Member, Quantity, Tally, UnknownGroup,
+    UnknownQuantity,
+};
 pub use members::{NodeSet, NodesOfSet};
 pub use view::{AgentView, Agents};
 

@@ -16,6 +16,7 @@ pub(crate) fn save_group<'a, G: AgentGroup>(world: &'a World, to: &mut Saver<'_,
     to.value("states", &of_members);
     to.owned("members", members);
     to.keep("globals", &group.globals);
+    to.value("tally", &(group.tally, group.moves));
     to.value("births", &group.births);
     to.value("deaths", &group.deaths);
 }
@@ -31,6 +32,7 @@ pub(crate) fn restore_group<G: AgentGroup>(
     let born = from.array_of::<u32>("born", members.len())?;
     let states: Vec<G::State> = from.value("states")?;
     group.globals = from.keep("globals")?;
+    (group.tally, group.moves) = from.value("tally")?;
     group.births = from.value("births")?;
     group.deaths = from.value("deaths")?;
     let births = group.births.iter().map(|(node, _)| node);

@@ -104,6 +104,7 @@ impl<G: AgentGroup> AgentView<'_, G> {
         if self.group.leaving.contains(from) || !self.register(to, state) {
             return false;
         }
+        self.group.moves += 1;
         self.deregister(from)
     }
 

@@ -1,17 +1,20 @@
 //! Metrics: numbers measured while a run goes on, and the series they form.
 
+mod group;
 mod meter;
 mod series;
 mod statistic;
 
+pub use group::{AgentCount, AgentStatistic};
 pub use meter::Meter;
-pub use series::Series;
-pub use statistic::{FieldStatistic, Statistic};
+pub use series::{RowsKept, Series, csv_header, csv_line};
+pub use statistic::{FieldStatistic, Region, Statistic};
 
 pub(crate) use meter::Opened;
 
 use landform_graph::Lattice;
 
+use crate::agent::GroupUse;
 use crate::checkpoint::Keep;
 use crate::parameters::{Parameters, Problem};
 use crate::snapshot::Snapshot;
@@ -26,6 +29,12 @@ pub trait Metric: Parameters {
 
     /// Fields that the metric needs, so that a wrong name is refused before the run.
     fn fields(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Groups of agents that the metric needs, and quantities of theirs, so that a wrong name is
+    /// refused before the run.
+    fn groups(&self) -> Vec<GroupUse> {
         Vec::new()
     }
 
@@ -47,4 +56,12 @@ pub trait Metric: Parameters {
         memory: &mut Self::Memory,
         snapshot: &Snapshot<'_>,
     ) -> Result<Vec<(String, f64)>, Problem>;
+}
+
+/// The name of a column with the unit of its values, if they have one.
+fn with_unit(name: String, unit: &str) -> String {
+    match unit {
+        "1" => name,
+        unit => format!("{name}_{unit}"),
+    }
 }

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Metric;
+use super::{Metric, with_unit};
+use crate::field::UnknownField;
 use crate::parameters::Problem;
 use crate::snapshot::Snapshot;
 use crate::sums::sum;
@@ -42,7 +43,7 @@ impl Statistic {
         }
     }
 
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Sum => "sum",
             Self::Mean => "mean",
@@ -53,7 +54,55 @@ impl Statistic {
     }
 }
 
-/// A statistic of a field, over all nodes.
+/// The nodes that a statistic looks at.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Region {
+    /// All of them.
+    #[default]
+    Everywhere,
+    /// Those where a field is above a value.
+    Above {
+        /// Name of the field.
+        field: String,
+        /// The value.
+        value: f64,
+    },
+    /// Those where a field is below a value.
+    Below {
+        /// Name of the field.
+        field: String,
+        /// The value.
+        value: f64,
+    },
+}
+
+impl Region {
+    /// The values of nodes in the region, in node order.
+    fn of(&self, values: Vec<f64>, snapshot: &Snapshot<'_>) -> Result<Vec<f64>, UnknownField> {
+        let within = |field: &str, test: &dyn Fn(f64) -> bool| {
+            let field = snapshot.field(field)?;
+            let pairs = values.iter().zip(field);
+            Ok(pairs.filter(|&(_, each)| test(each)).map(|(&value, _)| value).collect())
+        };
+        match self {
+            Self::Everywhere => Ok(values),
+            Self::Above { field, value } => within(field, &|each| each > *value),
+            Self::Below { field, value } => within(field, &|each| each < *value),
+        }
+    }
+
+    /// What follows the name of a statistic of the region.
+    fn suffix(&self) -> String {
+        match self {
+            Self::Everywhere => String::new(),
+            Self::Above { field, value } => format!("_where_{field}_above_{value}"),
+            Self::Below { field, value } => format!("_where_{field}_below_{value}"),
+        }
+    }
+}
+
+/// A statistic of a field, over all nodes or over those where a field is above or below a value.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FieldStatistic {
@@ -61,11 +110,13 @@ pub struct FieldStatistic {
     pub field: String,
     /// What is computed.
     pub statistic: Statistic,
+    /// The nodes that are looked at; where there are none, nothing is measured.
+    pub over: Region,
 }
 
 impl Default for FieldStatistic {
     fn default() -> Self {
-        Self { field: "surface".to_owned(), statistic: Statistic::Mean }
+        Self { field: "surface".to_owned(), statistic: Statistic::Mean, over: Region::Everywhere }
     }
 }
 
@@ -74,19 +125,21 @@ impl Metric for FieldStatistic {
     const NAME: &'static str = "FieldStatistic";
 
     fn fields(&self) -> Vec<String> {
-        vec![self.field.clone()]
+        let over = match &self.over {
+            Region::Everywhere => None,
+            Region::Above { field, .. } | Region::Below { field, .. } => Some(field.clone()),
+        };
+        over.into_iter().chain([self.field.clone()]).collect()
     }
 
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let unknown = |error: crate::field::UnknownField| {
-            Problem::new("field", error.to_string(), "a field of the run")
-        };
+        let unknown =
+            |error: UnknownField| Problem::new("field", error.to_string(), "a field of the run");
+        let unit = snapshot.entry(&self.field).map_err(unknown)?.unit;
         let values = snapshot.field(&self.field).map_err(unknown)?;
-        let unit = match snapshot.entry(&self.field).map_err(unknown)?.unit {
-            "1" => String::new(),
-            unit => format!("_{unit}"),
-        };
-        let name = format!("{}_{}{unit}", self.field, self.statistic.name());
+        let values = self.over.of(values, snapshot).map_err(unknown)?;
+        let name = with_unit(format!("{}_{}", self.field, self.statistic.name()), unit);
+        let name = name + &self.over.suffix();
         Ok(self.statistic.of(&values).map(|value| (name, value)).into_iter().collect())
     }
 }

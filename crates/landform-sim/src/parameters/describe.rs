@@ -17,7 +17,7 @@ pub struct ParameterDescription {
     pub unit: String,
     /// Range in words; empty when anything of the type goes.
     pub range: String,
-    /// Value when the scenario says nothing, as RON.
+    /// Value when the scenario says nothing, as RON; empty when it must say something.
     pub default: String,
     /// Where the parameter and its default come from.
     pub source: String,
@@ -41,7 +41,9 @@ fn describe_fields(
     list: &mut Vec<ParameterDescription>,
 ) {
     for (name, property) in schema["properties"].as_object().into_iter().flatten() {
-        let default = defaults.get(name).or(property.get("default"));
+        let required =
+            schema["required"].as_array().is_some_and(|all| all.contains(&name.as_str().into()));
+        let default = defaults.get(name).or(property.get("default")).filter(|_| !required);
         list.push(ParameterDescription {
             name: name_of(name),
             kind: kind_of(property),
@@ -88,6 +90,9 @@ fn kind_of(property: &Value) -> String {
             Some(_) => format!("{name}(..)"),
             None => format!("{name}({})", kind_of(content)),
         };
+    }
+    if let Some(type_name) = property["$ref"].as_str() {
+        return type_name.rsplit('/').next().unwrap_or_default().to_owned();
     }
     let choices: Vec<String> = alternatives(property).map(kind_of).collect();
     if !choices.is_empty() {

@@ -7,6 +7,7 @@ use landform_graph::Lattice;
 use serde_json::Value;
 
 use super::{Kind, Registry};
+use crate::agent::GroupUse;
 use crate::domain::{Domain, DomainSource};
 use crate::initial::{InitialCondition, InitialContext};
 use crate::metric::{Meter, Metric, Opened};
@@ -142,6 +143,9 @@ pub trait AnyMetric: AnyParameters {
     /// See [`Metric::fields`].
     fn fields(&self) -> Vec<String>;
 
+    /// See [`Metric::groups`].
+    fn groups(&self) -> Vec<GroupUse>;
+
     /// See [`Metric::validate`].
     ///
     /// # Errors
@@ -157,6 +161,10 @@ impl<M: Metric> AnyMetric for M {
         Metric::fields(self)
     }
 
+    fn groups(&self) -> Vec<GroupUse> {
+        Metric::groups(self)
+    }
+
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         Metric::validate(self, lattice)
     }
@@ -170,6 +178,12 @@ impl<M: Metric> AnyMetric for M {
 pub trait AnyOutput: AnyParameters {
     /// See [`Output::fields`].
     fn fields(&self) -> Vec<String>;
+
+    /// See [`Output::groups`].
+    fn groups(&self) -> Vec<GroupUse>;
+
+    /// See [`Output::metrics`].
+    fn metrics(&self) -> Vec<String>;
 
     /// See [`Output::file`].
     fn file(&self) -> Option<&Path>;
@@ -187,6 +201,14 @@ pub trait AnyOutput: AnyParameters {
 impl<O: Output> AnyOutput for O {
     fn fields(&self) -> Vec<String> {
         Output::fields(self)
+    }
+
+    fn groups(&self) -> Vec<GroupUse> {
+        Output::groups(self)
+    }
+
+    fn metrics(&self) -> Vec<String> {
+        Output::metrics(self)
     }
 
     fn file(&self) -> Option<&Path> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Scenario, StageEntry};
 use crate::parameters::Problem;
-use crate::registry::{AnyParameters, Chosen};
+use crate::registry::{AnyOutput, AnyParameters, Chosen};
 use crate::simulation::Limits;
 
 impl Scenario {
@@ -33,6 +33,13 @@ impl Scenario {
             let message = "the stop rule waits for a metric and the scenario measures none";
             let expected = "an entry in `metrics`, or another rule";
             problems.push(Problem::new(format!("stages[{stage}].stop"), message, expected));
+        }
+        let waits = |output: &Chosen<dyn AnyOutput>| !output.value.metrics().is_empty();
+        if let (true, Some(index)) = (self.metrics.is_empty(), self.outputs.iter().position(waits))
+        {
+            let message = "the output waits for a metric and the scenario measures none";
+            let expected = "an entry in `metrics`, or another moment";
+            problems.push(Problem::new(format!("outputs[{index}].when"), message, expected));
         }
         if self.stages.is_empty() {
             problems.push(Problem::new("stages", "the scenario has no stage", "at least one"));

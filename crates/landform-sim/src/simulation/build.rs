@@ -9,18 +9,20 @@ use landform_graph::Lattice;
 use super::checkpoint::Resumed;
 use super::state::State;
 use super::{Keeper, memory};
+use crate::agent::{GroupListing, GroupTable, GroupUse, UnknownGroup, UnknownQuantity};
 use crate::clock::Clock;
 use crate::domain::Domain;
 use crate::fault::Fault;
 use crate::field::{Bed, FieldEntry, FieldTable, NodeField, Sand, surface};
 use crate::initial::InitialContext;
 use crate::ledger::Ledger;
-use crate::metric::{Meter, Series};
+use crate::metric::{Meter, RowsKept, Series};
 use crate::nodes::spawn_nodes;
 use crate::output::Sink;
 use crate::parameters::Problem;
 use crate::process::{Access, Declaration, GroupEntry};
 use crate::random::RandomStream;
+use crate::registry::{AnyOutput, Chosen};
 use crate::scenario::validate::below;
 use crate::scenario::{Scenario, StageEntry};
 use crate::text::nearest;
@@ -39,6 +41,9 @@ impl Default for Limits {
     }
 }
 
+/// A metric that decides when an output is due, the output's name and its path.
+pub(super) type Schedule = (String, &'static str, String);
+
 /// A run that is ready to go.
 pub struct Simulation {
     pub(super) app: App,
@@ -48,6 +53,7 @@ pub struct Simulation {
     pub(super) metrics: Vec<(&'static str, Box<dyn Meter>)>,
     pub(super) measure_every: u64,
     pub(super) sinks: Vec<(&'static str, Box<dyn Sink>)>,
+    pub(super) schedules: Vec<Schedule>,
     pub(super) series: Series,
     pub(super) warnings: Vec<String>,
     pub(super) state: State,
@@ -72,27 +78,43 @@ impl Simulation {
         groups.iter().for_each(|group| (group.make)(world, domain.lattice.node_count()));
         uses.iter().flat_map(|uses| &uses.edges).for_each(|e| (e.make)(world, &domain.lattice));
         world.insert_resource(fields);
+        world.insert_resource(GroupTable(listings(&groups)));
         world.insert_resource(Clock { seed: scenario.seed, ..Clock::default() });
         world.insert_resource(Ledger::default());
         world.insert_resource(Fault::default());
         fill(&mut app, &scenario, &domain, folder)?;
         let state = State::new(app.world(), groups, &uses)?;
 
+        let schedules = schedules(&scenario);
         Ok(Self {
             app,
             warnings: domain.remarks.clone(),
             domain,
             title: scenario.title,
             sinks: scenario.outputs.iter().map(|each| (each.name, each.value.open())).collect(),
+            schedules,
+            series: Series::new(longest_rule(&scenario.stages)),
             stages: scenario.stages,
             metrics: scenario.metrics.iter().map(|each| (each.name, each.value.open())).collect(),
             measure_every: scenario.measure_every,
-            series: Series::default(),
             state,
             keeper: None,
             resumed: None,
             start: String::new(),
         })
+    }
+
+    /// Adds an output that no scenario names, unless one of that name is there. Its errors are
+    /// told under `name`.
+    pub fn add_sink(&mut self, name: &'static str, sink: Box<dyn Sink>) {
+        if self.sinks.iter().all(|(known, _)| *known != name) {
+            self.sinks.push((name, sink));
+        }
+    }
+
+    /// Decides which rows of the series stay in memory; at first all do.
+    pub fn keep_rows(&mut self, kept: RowsKept) {
+        self.series.keep(kept);
     }
 
     /// The lattice of the run.
@@ -143,8 +165,9 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     memory::check(domain.lattice.node_count() as u128, bytes, limits.memory_bytes)?;
     check_processes(&scenario.stages, &domain.lattice)?;
     check_names(scenario, &fields, &uses)?;
-    check_metrics(scenario, &fields, &domain.lattice)?;
-    check_outputs(scenario, &fields, &domain.lattice)?;
+    let groups = GroupTable(listings(&collect_groups(&uses)));
+    check_metrics(scenario, &fields, &groups, &domain.lattice)?;
+    check_outputs(scenario, &fields, &groups, &domain.lattice)?;
     Ok(Plan { domain, fields, uses })
 }
 
@@ -174,11 +197,30 @@ fn collect_fields(declarations: &[Vec<Declaration>]) -> Result<FieldTable, Probl
 fn collect_groups(declarations: &[Declaration]) -> Vec<GroupEntry> {
     let mut groups: Vec<GroupEntry> = Vec::new();
     for group in declarations.iter().flat_map(|uses| &uses.groups) {
-        if groups.iter().all(|known| known.name != group.name) {
+        if groups.iter().all(|known| known.listing.name != group.listing.name) {
             groups.push(*group);
         }
     }
     groups
+}
+
+fn listings(groups: &[GroupEntry]) -> Vec<GroupListing> {
+    groups.iter().map(|group| group.listing).collect()
+}
+
+/// The metrics that decide when outputs are due.
+fn schedules(scenario: &Scenario) -> Vec<Schedule> {
+    let of = |(index, output): (usize, &Chosen<dyn AnyOutput>)| {
+        let name = output.name;
+        let schedule = move |metric| (metric, name, format!("outputs[{index}].when"));
+        output.value.metrics().into_iter().map(schedule).collect::<Vec<_>>()
+    };
+    scenario.outputs.iter().enumerate().flat_map(of).collect()
+}
+
+/// Measurements that the stop rule which looks back farthest looks at.
+fn longest_rule(stages: &[StageEntry]) -> usize {
+    stages.iter().map(|stage| stage.stop.measurements()).max().unwrap_or(1)
 }
 
 fn check_processes(stages: &[StageEntry], lattice: &Lattice) -> Result<(), Problem> {
@@ -225,6 +267,7 @@ fn check_names(
 fn check_metrics(
     scenario: &Scenario,
     fields: &FieldTable,
+    groups: &GroupTable,
     lattice: &Lattice,
 ) -> Result<(), Problem> {
     for (index, metric) in scenario.metrics.iter().enumerate() {
@@ -232,6 +275,7 @@ fn check_metrics(
         for field in metric.value.fields() {
             known_field(fields, &field, format!("{path}.field"))?;
         }
+        known_groups(groups, &metric.value.groups(), &path)?;
         metric.value.validate(lattice).map_err(|problem| below(&path, problem))?;
     }
     Ok(())
@@ -241,6 +285,7 @@ fn check_metrics(
 fn check_outputs(
     scenario: &Scenario,
     fields: &FieldTable,
+    groups: &GroupTable,
     lattice: &Lattice,
 ) -> Result<(), Problem> {
     for (index, output) in scenario.outputs.iter().enumerate() {
@@ -248,6 +293,7 @@ fn check_outputs(
         for field in output.value.fields() {
             known_field(fields, &field, format!("{path}.field"))?;
         }
+        known_groups(groups, &output.value.groups(), &path)?;
         output.value.validate(lattice).map_err(|problem| below(&path, problem))?;
         let Some(file) = output.value.file() else { continue };
         let earlier = &scenario.outputs[..index];
@@ -275,6 +321,25 @@ fn known_field<'a>(
             None => problem,
         }
     })
+}
+
+fn known_groups(groups: &GroupTable, uses: &[GroupUse], path: &str) -> Result<(), Problem> {
+    let refuse = |parameter: &str, name: &str, message: String, known: &[&str]| {
+        let problem = Problem::new(format!("{path}.{parameter}"), message, "");
+        match nearest(name, known.iter().copied()) {
+            Some(guess) => problem.help(format!("did you mean {guess:?}?")),
+            None => problem,
+        }
+    };
+    for GroupUse { group, quantity } in uses {
+        let unknown = |error: UnknownGroup| refuse("group", group, error.to_string(), &error.known);
+        let listing = groups.get(group).map_err(unknown)?;
+        let Some(name) = quantity else { continue };
+        let unknown =
+            |error: UnknownQuantity| refuse("quantity", name, error.to_string(), &error.known);
+        listing.quantity(name).map_err(unknown)?;
+    }
+    Ok(())
 }
 
 /// Fills the fields by the initial conditions, in order.

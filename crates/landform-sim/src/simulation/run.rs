@@ -11,7 +11,7 @@ use super::stage;
 use super::turn::Turn;
 use super::{Progress, ProgressHook, Report, RunError, Simulation, StageReport};
 use crate::clock::Clock;
-use crate::output::{Moment, OutputFile};
+use crate::output::{Moment, OutputFile, Sink};
 use crate::parameters::Problem;
 use crate::scenario::StageEntry;
 use crate::snapshot::Snapshot;
@@ -30,6 +30,7 @@ impl Simulation {
     ) -> Result<(), RunError> {
         let start = Instant::now();
         let result = self.run_stages(folder, hook, report);
+        let result = result.and(self.flush());
         self.summarise(report);
         report.seconds += start.elapsed().as_secs_f64();
         report.finished = result.is_ok();
@@ -40,7 +41,7 @@ impl Simulation {
     pub fn snapshot(&self) -> Snapshot<'_> {
         let stage = self.app.world().resource::<Clock>().stage;
         let name = self.stages.get(stage).map_or("", |stage| stage.name.as_str());
-        Snapshot::new(self.app.world(), &self.domain, &self.title, name)
+        Snapshot::new(self.app.world(), &self.domain, &self.title, name, &self.series)
     }
 
     fn run_stages(
@@ -98,14 +99,14 @@ impl Simulation {
             // A rule on a metric looks at fresh measurements only.
             let due = iteration.is_multiple_of(self.measure_every);
             if due && self.measure()? {
-                self.check_rule(stage)?;
+                self.check_rules(stage)?;
+            }
+            let reason = reason(self);
+            if reason.is_some() && !due {
+                self.measure()?;
             }
             report.outputs.extend(self.observe(Moment::Iteration, folder)?);
-            let reason = reason(self);
             if reason.is_some() {
-                if !due {
-                    self.measure()?;
-                }
                 report.outputs.extend(self.observe(Moment::StageEnd, folder)?);
             }
             if let Some(summary) = report.stages.last_mut() {
@@ -197,21 +198,23 @@ impl Simulation {
         Ok(false)
     }
 
-    /// Refuses a stop rule on a metric that nothing measures, once every metric has spoken.
-    fn check_rule(&self, stage: usize) -> Result<(), RunError> {
+    /// Refuses a stop rule or a schedule on a metric that nothing measures, once every metric
+    /// has spoken.
+    fn check_rules(&self, stage: usize) -> Result<(), RunError> {
         let known = self.series.names();
-        let wanted = self.stages[stage].stop.metrics();
-        let Some(name) = wanted.into_iter().find(|name| known.iter().all(|known| known != name))
-        else {
-            return Ok(());
-        };
-        let message = format!("nothing measures `{name}`, so the stage would never end");
-        let expected = format!("one of {}", known.join(", "));
-        let mut problem = Problem::new(format!("stages[{stage}].stop"), message, expected);
+        let stop = self.stages[stage].stop.metrics().into_iter();
+        let stop = stop.map(|name| (name, "stop rule", None));
+        let outputs = self.schedules.iter();
+        let outputs = outputs.map(|(name, output, path)| (name.as_str(), *output, Some(path)));
+        let unknown = stop.chain(outputs).find(|(name, ..)| known.iter().all(|each| each != name));
+        let Some((name, what, path)) = unknown else { return Ok(()) };
+        let path = path.cloned().unwrap_or_else(|| format!("stages[{stage}].stop"));
+        let message = format!("nothing measures `{name}`, so this never happens");
+        let mut problem = Problem::new(path, message, format!("one of {}", known.join(", ")));
         if let Some(guess) = nearest(name, known.iter().map(String::as_str)) {
             problem = problem.help(format!("did you mean {guess:?}?"));
         }
-        Err(recording("stop rule", problem))
+        Err(recording(what, problem))
     }
 
     /// Measures all metrics and says whether each of them had something to tell.
@@ -232,8 +235,20 @@ impl Simulation {
         }
         let tick = snapshot.clock().tick;
         self.metrics = metrics;
-        self.series.push(tick, row);
+        if measured.is_ok() {
+            self.series.push(tick, row);
+        }
         measured
+    }
+
+    /// Brings to the disk what outputs hold back.
+    fn flush(&mut self) -> Result<(), RunError> {
+        let flush = |(name, sink): &mut (&'static str, Box<dyn Sink>)| {
+            sink.flush().map_err(|problem| recording(name, problem))
+        };
+        // One that fails must not keep the others from trying.
+        let results: Vec<_> = self.sinks.iter_mut().map(flush).collect();
+        results.into_iter().collect()
     }
 
     fn observe(&mut self, moment: Moment, folder: &Path) -> Result<Vec<OutputFile>, RunError> {

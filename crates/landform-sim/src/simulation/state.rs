@@ -70,7 +70,7 @@ impl State {
             field.save(world, &mut checkpoint.saver("fields"));
         }
         for group in &self.groups {
-            (group.save)(world, &mut checkpoint.saver("groups").below(group.name));
+            (group.save)(world, &mut checkpoint.saver("groups").below(group.listing.name));
         }
         for (name, (save, _)) in &self.kept {
             save(world, &mut checkpoint.saver("state").below(name));
@@ -90,7 +90,7 @@ impl State {
             field.restore(world, &checkpoint.loader("fields"))?;
         }
         for group in &self.groups {
-            (group.restore)(world, &checkpoint.loader("groups").below(group.name))?;
+            (group.restore)(world, &checkpoint.loader("groups").below(group.listing.name))?;
         }
         for (name, (_, restore)) in &self.kept {
             restore(world, &checkpoint.loader("state").below(name))?;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
 use landform_sim::checkpoint::{self, Damage, Loader, Saver};
-use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::output::{Moment, Output, OutputFile, Sink, below, check_file};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::animation;
@@ -56,7 +56,7 @@ impl Output for Animation {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        field_file::check_file(&self.file, &["png", "apng", "gif"])?;
+        check_file(&self.file, &["png", "apng", "gif"])?;
         self.look.validate(lattice)
     }
 
@@ -127,8 +127,8 @@ impl AnimationSink {
         folder: &Path,
     ) -> Result<animation::Animation, Problem> {
         let Animation { file, field, delay_ms, .. } = &self.settings;
-        let path = field_file::below(folder, file)?;
-        let part = field_file::below(&folder.join(checkpoint::FOLDER), file)?;
+        let path = below(folder, file)?;
+        let part = below(&folder.join(checkpoint::FOLDER), file)?;
         let text = picture_text(snapshot, field);
         let text: Vec<_> = text.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
         animation::Animation::create(&path, &part, *delay_ms, &text)

@@ -1,19 +1,14 @@
 //! A field as a raster file, and what outputs of fields have in common.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
-use landform_graph::Lattice;
 use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
-use landform_sim::checkpoint;
 use landform_sim::field::FieldEntry;
-use landform_sim::output::{Output, Sink};
+use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use super::When;
-use super::due::{Due, DueFile};
 
 /// A field as a raster: GeoTIFF (`.tif`), ESRI ASCII (`.asc`), NumPy (`.npy`), 16-bit grey
 /// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it.
@@ -40,40 +35,21 @@ const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw"];
 #[cfg(feature = "exr")]
 const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw", "exr"];
 
-impl Output for FieldFile {
+impl FileOutput for FieldFile {
     const NAME: &'static str = "FieldFile";
+    const KIND: &'static str = "raster";
+    const EXTENSIONS: &'static [&'static str] = EXTENSIONS;
+
+    fn order(&self) -> (&Path, &When) {
+        (&self.file, &self.when)
+    }
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
     }
 
-    fn file(&self) -> Option<&Path> {
-        Some(&self.file)
-    }
-
-    fn validate(&self, _lattice: &Lattice) -> Result<(), Problem> {
-        check_file(&self.file, EXTENSIONS)
-    }
-
-    fn open(&self) -> Box<dyn Sink> {
-        Box::new(Due(self.clone()))
-    }
-}
-
-impl DueFile for FieldFile {
-    const KIND: &'static str = "raster";
-
-    fn order(&self) -> (&PathBuf, &str, When) {
-        (&self.file, &self.field, self.when)
-    }
-
-    fn write(
-        &self,
-        path: &Path,
-        values: Vec<f64>,
-        entry: &FieldEntry,
-        snapshot: &Snapshot<'_>,
-    ) -> Result<(), Problem> {
+    fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+        let (values, entry) = values(snapshot, &self.field)?;
         let raster = raster_of(snapshot, values);
         write_raster(path, &raster, &metadata(snapshot, entry), IfExists::Replace)
             .map_err(|error| Problem::new("file", error.to_string(), ""))
@@ -89,43 +65,6 @@ pub(super) fn values<'a>(
         Problem::new("field", error.to_string(), "a field of the run")
     };
     Ok((snapshot.field(name).map_err(unknown)?, snapshot.entry(name).map_err(unknown)?))
-}
-
-/// Refuses names of files that lead out of the output folder, lie among what every run writes,
-/// or do not end in one of `extensions`.
-pub(super) fn check_file(file: &Path, extensions: &[&str]) -> Result<(), Problem> {
-    let refuse = |why: &str, expected: &str| {
-        Err(Problem::new("file", format!("`{}` {why}", file.display()), expected))
-    };
-    let mut parts = file.components();
-    if file.file_name().is_none() || !parts.all(|part| matches!(part, Component::Normal(_))) {
-        return refuse("leads out of the output folder", "a name below the output folder");
-    }
-    if file.starts_with("fields") {
-        return refuse("lies in the folder of the final fields", "a name outside `fields`");
-    }
-    if file.starts_with(checkpoint::FOLDER) {
-        return refuse("lies in the folder of the checkpoint", "a name outside `checkpoint`");
-    }
-    let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match extensions.contains(&extension.as_str()) {
-        true => Ok(()),
-        false => {
-            let expected = format!("one that ends in .{}", extensions.join(", ."));
-            refuse("ends in no format that is known here", &expected)
-        }
-    }
-}
-
-/// The path of an output below its folder, whose parent folders are made.
-pub(super) fn below(folder: &Path, file: &Path) -> Result<PathBuf, Problem> {
-    let path = folder.join(file);
-    if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent).map_err(|error| {
-            Problem::new("file", format!("cannot make {}: {error}", parent.display()), "")
-        })?;
-    }
-    Ok(path)
 }
 
 /// The values of a field of the run as a raster in its place on Earth, or at the origin.

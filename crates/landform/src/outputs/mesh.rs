@@ -5,16 +5,14 @@ use std::path::{Path, PathBuf};
 use landform_graph::Lattice;
 use landform_io::mesh::{self, height_mesh};
 use landform_io::{IfExists, IoError, Metadata, Raster};
-use landform_sim::field::FieldEntry;
-use landform_sim::output::{Output, Sink};
+use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::ColourMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::due::{Due, DueFile};
-use super::{When, field_file};
+use super::field_file;
 
 /// A field of heights as a triangle mesh with colours: glTF (`.glb`), `.obj`, `.ply`, `.stl`.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -41,19 +39,20 @@ impl Default for Mesh {
     }
 }
 
-impl Output for Mesh {
+impl FileOutput for Mesh {
     const NAME: &'static str = "Mesh";
+    const KIND: &'static str = "mesh";
+    const EXTENSIONS: &'static [&'static str] = &["glb", "obj", "ply", "stl"];
+
+    fn order(&self) -> (&Path, &When) {
+        (&self.file, &self.when)
+    }
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
     }
 
-    fn file(&self) -> Option<&Path> {
-        Some(&self.file)
-    }
-
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        field_file::check_file(&self.file, &["glb", "obj", "ply", "stl"])?;
         colour_map(&self.colours)?;
         let [width, height, _] = lattice.size();
         match width.min(height) {
@@ -65,25 +64,8 @@ impl Output for Mesh {
         }
     }
 
-    fn open(&self) -> Box<dyn Sink> {
-        Box::new(Due(self.clone()))
-    }
-}
-
-impl DueFile for Mesh {
-    const KIND: &'static str = "mesh";
-
-    fn order(&self) -> (&PathBuf, &str, When) {
-        (&self.file, &self.field, self.when)
-    }
-
-    fn write(
-        &self,
-        path: &Path,
-        values: Vec<f64>,
-        entry: &FieldEntry,
-        snapshot: &Snapshot<'_>,
-    ) -> Result<(), Problem> {
+    fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+        let (values, entry) = field_file::values(snapshot, &self.field)?;
         let colours = colour_map(&self.colours)?;
         let raster = field_file::raster_of(snapshot, values);
         let metadata = field_file::metadata(snapshot, entry);

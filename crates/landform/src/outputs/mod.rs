@@ -1,21 +1,25 @@
-//! Outputs that scenarios may name: pictures, animations, rasters and meshes.
+//! Outputs that scenarios may name: pictures, animations, rasters, meshes, tables and series.
 
+mod agent_table;
 mod animation;
-mod due;
 mod field_file;
+mod field_series;
 mod look;
 mod mesh;
 mod panels;
 mod picture;
-mod when;
+mod series_file;
 
+pub use agent_table::AgentTable;
 pub use animation::Animation;
 pub use field_file::FieldFile;
+pub use field_series::FieldSeries;
+pub use landform_sim::output::When;
 pub use look::{Density, Flat, Look, Perspective, Relief};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;
-pub use when::When;
+pub use series_file::SeriesFile;
 
 pub(crate) use field_file::{metadata, raster_of};
 pub(crate) use mesh::write_mesh;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
 use landform_sim::checkpoint::{Damage, Loader, Saver};
-use landform_sim::output::{Moment, Output, OutputFile, Sink};
+use landform_sim::output::{Moment, Output, OutputFile, Sink, below, check_file};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::montage::{MontageOptions, Panel, Row, panels};
@@ -56,7 +56,7 @@ impl Output for Panels {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        field_file::check_file(&self.file, &["png"])?;
+        check_file(&self.file, &["png"])?;
         self.looks.iter().try_for_each(|look| look.validate(lattice))
     }
 
@@ -133,7 +133,7 @@ impl PanelSink {
             }
         }
         let figure = panels(&[row], &MontageOptions::default()).map_err(|error| problem(&error))?;
-        let path = field_file::below(folder, &settings.file)?;
+        let path = below(folder, &settings.file)?;
         write_picture(&figure, &path, &picture_text(snapshot, &settings.field))?;
         Ok(vec![OutputFile { file: settings.file.clone(), kind: "picture".to_owned() }])
     }

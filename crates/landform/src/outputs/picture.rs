@@ -3,16 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
-use landform_sim::field::FieldEntry;
-use landform_sim::output::{Output, Sink};
+use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::due::{Due, DueFile};
+use super::field_file;
 use super::look::{Look, picture_text, problem, write_picture};
-use super::{When, field_file};
 
 /// A picture of a field as PNG, with title, scale and seed in its text entries.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -39,41 +37,25 @@ impl Default for Picture {
     }
 }
 
-impl Output for Picture {
+impl FileOutput for Picture {
     const NAME: &'static str = "Picture";
+    const KIND: &'static str = "picture";
+    const EXTENSIONS: &'static [&'static str] = &["png"];
+
+    fn order(&self) -> (&Path, &When) {
+        (&self.file, &self.when)
+    }
 
     fn fields(&self) -> Vec<String> {
         vec![self.field.clone()]
     }
 
-    fn file(&self) -> Option<&Path> {
-        Some(&self.file)
-    }
-
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        field_file::check_file(&self.file, &["png"])?;
         self.look.validate(lattice)
     }
 
-    fn open(&self) -> Box<dyn Sink> {
-        Box::new(Due(self.clone()))
-    }
-}
-
-impl DueFile for Picture {
-    const KIND: &'static str = "picture";
-
-    fn order(&self) -> (&PathBuf, &str, When) {
-        (&self.file, &self.field, self.when)
-    }
-
-    fn write(
-        &self,
-        path: &Path,
-        values: Vec<f64>,
-        entry: &FieldEntry,
-        snapshot: &Snapshot<'_>,
-    ) -> Result<(), Problem> {
+    fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+        let (values, entry) = field_file::values(snapshot, &self.field)?;
         let image = self.look.draw(snapshot.lattice(), &values, entry.unit);
         let text = picture_text(snapshot, &self.field);
         write_picture(&image.map_err(|error| problem(&error))?, path, &text)

@@ -53,7 +53,10 @@ fn paragraph(parameter: &ParameterDescription) -> String {
         facts.push(format!("in {}", parameter.unit));
     }
     facts.extend(Some(parameter.range.clone()).filter(|range| !range.is_empty()));
-    facts.push(format!("default {}", parameter.default));
+    facts.push(match parameter.default.as_str() {
+        "" => "required".to_owned(),
+        default => format!("default {default}"),
+    });
     let mut text =
         format!("  {}: {}\n      {}\n", parameter.name, facts.join(", "), parameter.description);
     if !parameter.source.is_empty() {

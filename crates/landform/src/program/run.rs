@@ -14,7 +14,7 @@ use super::checkpoint_file::{self, Claim, FileKeeper};
 use super::progress_bar::Bar;
 use super::resume::{self, Rest};
 use super::{Failure, Outcome, folder, interrupt, memory, talk};
-use crate::outputs::{metadata, raster_of};
+use crate::outputs::{SeriesFile, metadata, raster_of};
 
 /// Runs the scenario of the arguments.
 pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome {
@@ -27,6 +27,8 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         scenario.seed = arguments.seed.unwrap_or(scenario.seed);
         let mut simulation = Simulation::new(scenario, source.folder(), Limits { memory_bytes })
             .map_err(|problem| Failure::Refused(source.render(&problem)))?;
+        // The checkpoint of a run that goes on holds the state of all outputs, this one included.
+        SeriesFile::attach(&mut simulation);
         let folder = match &arguments.output {
             Some(folder) if arguments.resume => folder.clone(),
             asked => {
@@ -102,6 +104,7 @@ pub(super) fn run_in(
 ) -> Result<(Report, Result<(), RunError>), String> {
     let mut report = Report::default();
     folder::write_text(&folder.join("scenario.ron"), source.text())?;
+    SeriesFile::attach(simulation);
     let result = simulation.run(folder, hook, &mut report);
     finish(simulation, folder, &mut report)?;
     Ok((report, result))
@@ -142,7 +145,8 @@ fn failure(error: RunError, folder: &Path, scenario: &Path) -> Failure {
     }
 }
 
-/// Writes what every run leaves: the final fields, the series, the scenario and the report.
+/// Writes what every run leaves beside its series and its scenario: the final fields and the
+/// report.
 fn finish(simulation: &Simulation, folder: &Path, report: &mut Report) -> Result<(), String> {
     let mut keep = |file: &str, kind: &str| {
         report.outputs.push(OutputFile { file: file.into(), kind: kind.to_owned() });
@@ -165,8 +169,7 @@ fn finish(simulation: &Simulation, folder: &Path, report: &mut Report) -> Result
             keep(&file, "field");
         }
     }
-    folder::write_text(&folder.join("series.csv"), &simulation.series().to_csv())?;
-    keep("series.csv", "series");
+    keep(SeriesFile::NAME, "series");
     keep("scenario.ron", "scenario");
     folder::write_json(&folder.join("report.json"), report)
 }

@@ -1,10 +1,19 @@
 //! Outputs: sinks that write pictures, rasters and meshes while a run goes on.
 
+mod file_output;
+mod place;
+mod when;
+
+pub use file_output::FileOutput;
+pub use place::{below, check_file};
+pub use when::When;
+
 use std::path::{Path, PathBuf};
 
 use landform_graph::Lattice;
 use serde::{Deserialize, Serialize};
 
+use crate::agent::GroupUse;
 use crate::checkpoint::{Damage, Loader, Saver};
 use crate::parameters::{Parameters, Problem};
 use crate::snapshot::Snapshot;
@@ -27,17 +36,31 @@ pub enum Moment {
 pub struct OutputFile {
     /// Path, relative to the output folder.
     pub file: PathBuf,
-    /// What it is: `picture`, `animation`, `raster`, `mesh`, `series`, `field`.
+    /// What it is: `picture`, `animation`, `raster`, `mesh`, `table`, `series`, `field`.
     pub kind: String,
 }
 
-/// An output, chosen by name in a scenario.
+/// An output, chosen by name in a scenario. One that writes a whole file now and then implements
+/// [`FileOutput`] instead.
 pub trait Output: Parameters {
     /// Name in scenarios.
     const NAME: &'static str;
 
     /// Fields that the output needs, so that a wrong name is refused before the run.
-    fn fields(&self) -> Vec<String>;
+    fn fields(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Groups of agents that the output needs, so that a wrong name is refused before the run.
+    fn groups(&self) -> Vec<GroupUse> {
+        Vec::new()
+    }
+
+    /// Names of the metrics that decide when it is due. A name that nothing measures is refused
+    /// once every metric has had something to say.
+    fn metrics(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// The file it writes, below the output folder, or the one from whose name those of
     /// several files are made. Two outputs may not share one.
@@ -61,6 +84,14 @@ pub trait Output: Parameters {
 /// An output at work. A run may be killed at any moment and go on from an earlier checkpoint: the
 /// files that it leaves must be the same.
 pub trait Sink {
+    /// Brings to the disk what it holds back. Asked for when the run ends, whatever the reason.
+    ///
+    /// # Errors
+    /// The [`Problem`] names the file.
+    fn flush(&mut self) -> Result<(), Problem> {
+        Ok(())
+    }
+
     /// Looks at the run and writes what is due into `folder`. Returns the files that are
     /// finished; a file must never be left half-written.
     ///
