@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use landform_io::{IfExists, write_raster};
+use landform_sim::checkpoint::Checkpoint;
 use landform_sim::output::OutputFile;
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
@@ -36,31 +37,10 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
                 folder::make(asked.as_deref(), &stem, arguments.force).map_err(Failure::Refused)?
             }
         };
-        let rest = match arguments.resume {
-            true => resume::rest(&folder, &source).map_err(Failure::Refused)?,
-            false => Rest::Everything,
-        };
-        if matches!(rest, Rest::Nothing) {
-            if checkpoint_file::folder(&folder).is_dir() {
-                // It was killed while it cleaned up.
-                Claim::new(&folder).map_err(Failure::Refused)?.release(&folder, true);
-            }
+        let Some(claim) = begin(arguments, &folder, &mut simulation, &source)? else {
             talk::tell(&format!("the run in {} is over: nothing is left to do", folder.display()));
             return Ok(());
-        }
-        let claim = Claim::new(&folder).map_err(Failure::Refused)?;
-        take_up(rest, &folder, &mut simulation, &claim)?;
-        if arguments.resume {
-            folder::remove_leftovers(&folder);
-        }
-        let size = simulation.lattice().size();
-        let interval = arguments.checkpoint_every;
-        simulation.keep_checkpoints(Box::new(FileKeeper::new(
-            &folder,
-            interval,
-            source.text(),
-            size,
-        )));
+        };
         let mut bar = Bar::new(arguments.quiet);
         let done = run_in(&folder, &mut simulation, &source, &mut bar);
         bar.finish();
@@ -71,16 +51,46 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
     })
 }
 
-/// Prepares a simulation for what is left to do in its folder.
-fn take_up(
-    rest: Rest,
+/// Claims the folder of a run and takes up what was done there before; `None` when nothing is left
+/// to do.
+fn begin(
+    arguments: &RunArguments,
     folder: &Path,
     simulation: &mut Simulation,
-    claim: &Claim,
-) -> Result<(), Failure> {
-    let Rest::After(checkpoint) = rest else {
-        return claim.clear(folder).map_err(Failure::Refused);
+    source: &ScenarioSource,
+) -> Result<Option<Claim>, Failure> {
+    let rest = match arguments.resume {
+        true => resume::rest(folder, source).map_err(Failure::Refused)?,
+        false => Rest::Everything,
     };
+    if matches!(rest, Rest::Nothing) && !checkpoint_file::folder(folder).is_dir() {
+        return Ok(None);
+    }
+    let claim = Claim::new(folder).map_err(Failure::Refused)?;
+    match rest {
+        Rest::After(checkpoint) => take_up(checkpoint, folder, simulation)?,
+        Rest::Everything => claim.clear(folder).map_err(Failure::Refused)?,
+        Rest::Nothing => {
+            // The run was killed while it cleaned up.
+            claim.release(folder, true);
+            return Ok(None);
+        }
+    }
+    if arguments.resume {
+        folder::remove_leftovers(folder);
+    }
+    let (size, interval) = (simulation.lattice().size(), arguments.checkpoint_every);
+    let keeper = FileKeeper::new(folder, interval, source.text(), size);
+    simulation.keep_checkpoints(Box::new(keeper));
+    Ok(Some(claim))
+}
+
+/// Takes over the state of a checkpoint.
+fn take_up(
+    checkpoint: Checkpoint<'static>,
+    folder: &Path,
+    simulation: &mut Simulation,
+) -> Result<(), Failure> {
     simulation.resume(checkpoint, folder).map_err(|damage| {
         let path = checkpoint_file::path(folder);
         Failure::Refused(format!(
