@@ -91,7 +91,7 @@ pub fn write(path: &Path, members: &[Member<'_>], if_exists: IfExists) -> Result
     })
 }
 
-/// Reads an archive that [`write`] has written, on a machine with the same order of bytes.
+/// Reads an archive that [`write()`] has written, on a machine with the same order of bytes.
 ///
 /// # Errors
 /// [`IoError::System`] when the file cannot be read, [`IoError::Content`] when a byte of it is
