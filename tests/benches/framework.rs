@@ -6,8 +6,11 @@
 //! end alike that is checked.
 //!
 //! - `dunes`: the dune engine on 512x512 nodes; nanoseconds a node and iteration;
-//! - `life, dense`: Conway's Game of Life on a field of bytes; the same kernel on both sides;
-//! - `life, agents`: living cells as agents that are born and die, against the plain kernel;
+//! - `life, dense`: the lesson `Life` on a field of bytes, against a kernel on two plain lists;
+//! - `life, agents`: the lesson `LivingCells`, agents that are born and die, against the same;
+//! - `sparse visit`: agents on a tenth of the nodes that read a field, against a list of nodes;
+//! - `birth and death`: agents on a tenth of the nodes that all die while as many are born
+//!   elsewhere, at random; nanoseconds a birth and a death, against a mask of the nodes;
 //! - `walkers`: agents on a fifth of the nodes that step to a random neighbour if it is free;
 //!   nanoseconds a step, against agents in a list with a mask of the nodes that are taken.
 
@@ -20,10 +23,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
-use bevy_ecs::system::Local;
 use landform::dunes::dunes::{Engine, Shadow, ShadowSettings};
 use landform::dunes::plugin::Dunes;
+use landform::lessons::Cells;
 use landform::prelude::*;
+use landform::sim::agent::Group;
 use landform::sim::scenario::ScenarioSource;
 use landform::sim::simulation::{Limits, Progress, Report, Simulation};
 use measure::{Effort, Pair, table, time};
@@ -39,6 +43,8 @@ fn main() {
         dunes(effort);
         dense_life(effort);
         life_as_agents(effort);
+        sparse_visits(effort);
+        births_and_deaths(effort);
         walkers(effort);
     });
 }
@@ -46,7 +52,7 @@ fn main() {
 /// A run of one process.
 fn simulation(process: &str, initial: &str, iterations: usize) -> Simulation {
     let mut registry = landform::registry();
-    registry.process::<DenseLife>().process::<AgentLife>().process::<Walk>();
+    registry.process::<Walk>().process::<Look>().process::<Renewal>();
     let text = format!(
         "(title: \"Benchmark\", seed: 1,
         domain: Grid(size: ({SIDE}, {SIDE}), spacing_m: 10.0, connectivity: Eight,
@@ -103,10 +109,10 @@ fn dunes(effort: Effort) {
     pair.print("dunes, a node", "the engine by hand", "1.1 x");
 }
 
-/// A random pattern: about a third of the cells live.
+/// The pattern that the lessons sow.
 fn soup() -> Vec<u8> {
-    let random = RandomStream::new(1, "soup");
-    (0..NODES).map(|node| u8::from(random.block(0, node, 0)[0].is_multiple_of(3))).collect()
+    let random = RandomStream::new(1, "life");
+    (0..NODES).map(|node| u8::from(random.unit(0, node, 0) < 0.3)).collect()
 }
 
 /// One generation of the Game of Life on a torus, by windows of three rows.
@@ -149,105 +155,13 @@ impl PlainLife {
     }
 }
 
-/// Cells of the Game of Life: 1 where one lives.
-struct Alive;
-
-impl NodeField for Alive {
-    type Value = u8;
-    const NAME: &'static str = "alive";
-    const UNIT: &'static str = "1";
-    const MEANING: &'static str = "1 where a cell lives";
-}
-
-/// The Game of Life on a field.
-#[derive(Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default)]
-struct DenseLife {}
-
-impl Process for DenseLife {
-    const NAME: &'static str = "DenseLife";
-
-    fn declare(&self, uses: &mut Declaration) {
-        uses.writes::<Alive>();
-    }
-}
-
-impl Plugin for DenseLife {
-    fn build(&self, app: &mut App) {
-        app.add_systems(Begin, |mut alive: FieldMut<Alive>| {
-            alive.values_mut().copy_from_slice(&soup());
-        });
-        app.add_systems(Iterate, |mut alive: FieldMut<Alive>, mut next: Local<Vec<u8>>| {
-            next.resize(NODES, 0);
-            generation(alive.values(), &mut next);
-            alive.values_mut().copy_from_slice(&next);
-        });
-    }
-}
-
 fn dense_life(effort: Effort) {
-    let mut run = simulation("DenseLife()", "", effort.rounds(400) + 1);
+    let mut run = simulation("Life(alive_share: 0.3)", "", effort.rounds(400) + 1);
     let mut plain = PlainLife::new();
     let pair = tax(&mut run, NODES, || plain.step());
     let alive = run.snapshot().field("alive").expect("cells");
     assert!(alive.iter().zip(&plain.cells).all(|(a, &b)| *a == f64::from(b)), "both end alike");
     pair.print("life, dense, a cell", "plain Vec", "1.2 x");
-}
-
-/// Living cells.
-struct Cells;
-
-impl AgentGroup for Cells {
-    type State = ();
-    type Globals = ();
-    const NAME: &'static str = "cells";
-}
-
-/// The Game of Life as agents that are born and die.
-#[derive(Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(default)]
-struct AgentLife {}
-
-impl Process for AgentLife {
-    const NAME: &'static str = "AgentLife";
-
-    fn declare(&self, uses: &mut Declaration) {
-        uses.group::<Cells>();
-    }
-}
-
-impl Plugin for AgentLife {
-    fn build(&self, app: &mut App) {
-        app.add_systems(Begin, |mut cells: Agents<Cells>| {
-            let mut cells = cells.view();
-            for (node, _) in soup().iter().enumerate().filter(|&(_, &alive)| alive == 1) {
-                cells.register(node, ());
-            }
-        });
-        app.add_systems(Iterate, live_and_die);
-    }
-}
-
-/// Every cell tells its neighbours that it is there; then cells are born and die.
-fn live_and_die(mut cells: Agents<Cells>, mut counts: Local<Vec<u8>>) {
-    let mut cells = cells.view();
-    counts.clear();
-    counts.resize(NODES, 0);
-    for node in cells.nodes() {
-        around(node).into_iter().for_each(|other| counts[other] += 1);
-    }
-    cells.visit(|cells, node| {
-        if !(2..=3).contains(&counts[node]) {
-            cells.deregister(node);
-        }
-    });
-    for (block, counts) in counts.chunks(8).enumerate() {
-        if counts.contains(&3) {
-            for (at, _) in counts.iter().enumerate().filter(|&(_, &count)| count == 3) {
-                cells.register(8 * block + at, ());
-            }
-        }
-    }
 }
 
 /// The eight nodes around a node of the torus.
@@ -268,13 +182,136 @@ fn around(node: usize) -> [usize; 8] {
 }
 
 fn life_as_agents(effort: Effort) {
-    let mut run = simulation("AgentLife()", "", effort.rounds(200) + 1);
+    let mut run = simulation("LivingCells(alive_share: 0.3)", "", effort.rounds(200) + 1);
     let mut plain = PlainLife::new();
     let pair = tax(&mut run, NODES, || plain.step());
-    let group = run.snapshot().world().resource::<landform::sim::agent::Group<Cells>>();
+    let group = run.snapshot().world().resource::<Group<Cells>>();
     let alive = plain.cells.iter().enumerate().filter(|&(_, &alive)| alive == 1);
     assert!(group.members().iter().eq(alive.map(|(node, _)| node)), "both end alike");
     pair.print("life, agents, a cell", "plain Vec", "6 ns");
+}
+
+/// Agents that look at the field where they stand.
+struct Watchers;
+
+impl AgentGroup for Watchers {
+    type State = ();
+    type Globals = f64;
+    const NAME: &'static str = "watchers";
+}
+
+/// Agents on a tenth of the nodes that add what they see.
+#[derive(Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+struct Look {}
+
+impl Process for Look {
+    const NAME: &'static str = "Look";
+
+    fn declare(&self, uses: &mut Declaration) {
+        uses.reads_or_zero::<Sand>().group::<Watchers>();
+    }
+}
+
+impl Plugin for Look {
+    fn build(&self, app: &mut App) {
+        app.add_systems(Begin, |mut watchers: Agents<Watchers>| {
+            let mut watchers = watchers.view();
+            for node in tenth(0) {
+                watchers.register(node, ());
+            }
+        });
+        app.add_systems(Iterate, |sand: Field<Sand>, mut watchers: Agents<Watchers>| {
+            let (sand, mut watchers) = (sand.values(), watchers.view());
+            *watchers.globals_mut() = watchers.nodes().map(|node| sand[node]).sum();
+        });
+    }
+}
+
+/// A tenth of the nodes, drawn at random, in node order.
+fn tenth(draw: u64) -> impl Iterator<Item = usize> {
+    let random = RandomStream::new(1, "tenth");
+    (0..NODES).filter(move |&node| random.unit(draw, node, 0) < 0.1)
+}
+
+fn sparse_visits(effort: Effort) {
+    let noise = "(field: \"sand\", from: WhiteNoise(mean_m: 30.0, amplitude_m: 10.0))";
+    let mut run = simulation("Look()", noise, effort.rounds(200) + 1);
+    let sand = run.snapshot().field("sand").expect("sand");
+    let nodes: Vec<usize> = tenth(0).collect();
+    let mut sum = 0.0;
+    let pair = tax(&mut run, nodes.len(), || {
+        sum = black_box(&nodes).iter().map(|&node| sand[node]).sum();
+    });
+    let group = run.snapshot().world().resource::<Group<Watchers>>();
+    assert_eq!(group.globals, sum, "both sides end alike");
+    pair.print("sparse visit, an agent", "a list of nodes", "2 x");
+}
+
+/// Agents that live for an iteration.
+struct Mayflies;
+
+impl AgentGroup for Mayflies {
+    type State = u32;
+    type Globals = ();
+    const NAME: &'static str = "mayflies";
+}
+
+/// Lists of a tenth of the nodes, in random order, one after another.
+fn broods() -> [Vec<usize>; 8] {
+    let random = RandomStream::new(1, "broods");
+    std::array::from_fn(|brood| {
+        let mut nodes: Vec<usize> = (0..NODES).filter(|node| node % 8 == brood).collect();
+        nodes.sort_by_key(|&node| random.block(0, node, 0));
+        nodes.truncate(NODES / 10);
+        nodes
+    })
+}
+
+/// Agents that are all replaced by others elsewhere at each iteration.
+#[derive(Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+struct Renewal {}
+
+impl Process for Renewal {
+    const NAME: &'static str = "Renewal";
+
+    fn declare(&self, uses: &mut Declaration) {
+        uses.group::<Mayflies>();
+    }
+}
+
+impl Plugin for Renewal {
+    fn build(&self, app: &mut App) {
+        let broods = broods();
+        app.add_systems(Iterate, move |clock: Res<Clock>, mut mayflies: Agents<Mayflies>| {
+            let mut mayflies = mayflies.view();
+            mayflies.visit(|mayflies, node| _ = mayflies.deregister(node));
+            for &node in &broods[clock.tick as usize % 8] {
+                mayflies.register(node, 7);
+            }
+        });
+    }
+}
+
+fn births_and_deaths(effort: Effort) {
+    let iterations = effort.rounds(200) + 1;
+    let mut run = simulation("Renewal()", "", iterations);
+    let broods = broods();
+    let (mut alive, mut ages) = (vec![false; NODES], vec![0_u32; NODES]);
+    let mut tick = 0;
+    let pair = tax(&mut run, broods[0].len(), || {
+        for &node in &broods[(tick + 7) % 8] {
+            alive[node] = false;
+        }
+        for &node in &broods[tick % 8] {
+            (alive[node], ages[node]) = (true, 7);
+        }
+        tick += 1;
+    });
+    let group = run.snapshot().world().resource::<Group<Mayflies>>();
+    assert!(group.members().iter().eq((0..NODES).filter(|&node| alive[node])), "both end alike");
+    pair.print("birth and death, both", "a mask and values", "14 ns");
 }
 
 /// Agents that wander.

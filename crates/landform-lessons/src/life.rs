@@ -130,9 +130,10 @@ pub fn generation(lattice: &Lattice, cells: &mut [u8], work: &mut Vec<u8>) {
     });
 }
 
-/// Advances a band of rows. `above` and `below` are the rows beside it, `old` and `sums` (two
-/// longer than a row) are memory.
-fn advance(cells: &mut [u8], [above, below, old]: [&mut [u8]; 3], sums: &mut [u8], wraps: bool) {
+/// Advances a band of rows. `memory` holds the row above, the row below and room for one;
+/// `sums` has room for two more than a row.
+fn advance(cells: &mut [u8], memory: [&mut [u8]; 3], sums: &mut [u8], wraps: bool) {
+    let [mut above, below, mut old] = memory;
     let width = above.len();
     let rows = cells.len() / width;
     for row in 0..rows {
@@ -148,7 +149,7 @@ fn advance(cells: &mut [u8], [above, below, old]: [&mut [u8]; 3], sums: &mut [u8
         for (cell, block) in here.iter_mut().zip(sums.windows(3)) {
             *cell = lives_on(block[0] + block[1] + block[2], *cell);
         }
-        above.copy_from_slice(old);
+        std::mem::swap(&mut above, &mut old);
     }
 }
 
