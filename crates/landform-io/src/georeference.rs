@@ -49,7 +49,8 @@ pub struct CoordinateSystem {
     pub epsg: Option<u16>,
     /// Citation, or the well-known text of a `.prj` file, verbatim.
     pub text: Option<String>,
-    /// The keys of the GeoTIFF that it comes from; they are written again as they are.
+    /// The keys of the GeoTIFF that it comes from; they are written again as they are, but for
+    /// letters beyond ASCII.
     pub keys: Option<GeoKeys>,
 }
 

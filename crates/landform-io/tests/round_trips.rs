@@ -54,6 +54,24 @@ fn again(path: &Path, raster: &Raster) -> RasterFile {
     read_raster_file(path, &ReadLimits::default()).unwrap()
 }
 
+/// Some programs write the names of coordinate systems in UTF-8; tags hold ASCII. A run on such a
+/// raster must not fail when it writes its first output.
+#[test]
+fn names_of_coordinate_systems_may_have_any_letters() {
+    let folder = Scratch::new("letters");
+    let mut raster = raster();
+    let place = raster.georeference.as_mut().unwrap();
+    let text = "Zürich \0 grid|UTM 11|";
+    let start = text.find("UTM").unwrap() as u16;
+    let directory = [[1, 1, 0, 2], [1024, 0, 1, 1], [1026, 34737, 7, start]].concat();
+    let keys = GeoKeys { directory, doubles: Vec::new(), text: text.into() };
+    place.coordinate_system.keys = Some(keys);
+    let read = again(&folder.path("a.tif"), &raster).raster.georeference.unwrap();
+    let system = read.coordinate_system;
+    assert_eq!(system.keys.unwrap().text, "Z??rich ? grid|UTM 11|");
+    assert_eq!(system.text.as_deref(), Some("UTM 11"), "keys find their part of the text");
+}
+
 #[test]
 fn every_format_keeps_values_place_and_metadata() {
     let folder = Scratch::new("round_trips");

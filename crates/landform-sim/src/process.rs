@@ -205,6 +205,7 @@ impl ResourceEntry {
 /// An agent group without its type.
 #[derive(Clone, Copy)]
 pub(crate) struct GroupEntry {
+    pub(crate) id: TypeId,
     pub(crate) listing: GroupListing,
     pub(crate) save: Save,
     pub(crate) restore: Restore,
@@ -217,6 +218,7 @@ pub(crate) struct GroupEntry {
 impl GroupEntry {
     fn of<G: AgentGroup>() -> Self {
         Self {
+            id: TypeId::of::<G>(),
             listing: GroupListing::of::<G>(),
             save: save_group::<G>,
             restore: restore_group::<G>,

@@ -1,3 +1,6 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| landform_tests::fuzzing::try_out("scenario_text", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| landform_tests::fuzzing::try_out(
+    "scenario_text",
+    bytes
+));

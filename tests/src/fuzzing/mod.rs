@@ -56,6 +56,12 @@ pub const TARGETS: &[Target] = &[
         words: rasters::npy_words,
     },
     Target {
+        name: "npz",
+        try_out: rasters::npz,
+        seeds: rasters::npz_seeds,
+        words: rasters::npz_words,
+    },
+    Target {
         name: "sidecar",
         try_out: rasters::sidecar,
         seeds: rasters::sidecar_seeds,

@@ -1,14 +1,16 @@
 //! Files of rasters, of every format that is read.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use landform::graph::{Boundary, Connectivity, Lattice};
 use landform::io::geotiff::{self, Options};
+use landform::io::npz::{Content, Member};
 use landform::io::{
     IfExists, IoError, Metadata, Raster, RasterFile, ReadLimits, SampleType, Sidecar,
-    esri_ascii as text_grid, npy as array, read_raster_file,
+    esri_ascii as text_grid, npy as array, npz as archive, read_raster_file,
 };
 
 use crate::{Scratch, files_below, hills};
@@ -53,6 +55,17 @@ pub fn npy(bytes: &[u8]) -> bool {
         assert_eq!(array.shape.iter().product::<usize>(), array.values.len());
         true
     })
+}
+
+/// An archive of arrays and texts, as checkpoints are. What can be read is written and read again.
+pub fn npz(bytes: &[u8]) -> bool {
+    let scratch = Scratch::new("npz");
+    let path = scratch.write("a.npz", bytes);
+    let Some(members) = looked_at(&path, archive::read(&path)) else { return false };
+    let again = scratch.path("again.npz");
+    archive::write(&again, &members, IfExists::Refuse).expect("what was read can be written");
+    assert!(archive::read(&again).expect("what was written can be read") == members);
+    true
 }
 
 /// Text beside a raster: the sidecar of an array, and the coordinate system of a grid.
@@ -187,6 +200,26 @@ pub fn npy_seeds() -> Vec<(String, Vec<u8>)> {
     seeds
 }
 
+/// A small archive with texts and arrays of several types, and an empty one.
+pub fn npz_seeds() -> Vec<(String, Vec<u8>)> {
+    let array = |kind: &str, shape: Vec<usize>, bytes: &'static [u8]| Content::Array {
+        kind: kind.to_owned(),
+        shape,
+        bytes: Cow::Borrowed(bytes),
+    };
+    let contents = [
+        ("manifest.json", Content::Text(Cow::Borrowed("{\"tick\": 3}"))),
+        ("fields/sand.npy", array("f8", vec![1, 2], &[0; 16])),
+        ("groups/trees/nodes.npy", array("u4", vec![1], &[7, 0, 0, 0])),
+        ("state/shaken.npy", array("u1", vec![3], &[1, 0, 1])),
+    ];
+    let members = contents.map(|(name, content)| Member { name: name.to_owned(), content });
+    let write = |name, members: &[Member<'_>]| {
+        written(name, |path| archive::write(path, members, IfExists::Refuse))
+    };
+    vec![write("small.npz", &members), write("text.npz", &members[..1])]
+}
+
 /// A sidecar, and texts of coordinate systems.
 pub fn sidecar_seeds() -> Vec<(String, Vec<u8>)> {
     let scratch = Scratch::new("sidecar_seed");
@@ -277,6 +310,14 @@ pub fn npy_words() -> Vec<String> {
         "'",
         "\"",
     ])
+}
+
+/// Signatures of archives, and what stands in array files.
+pub fn npz_words() -> Vec<String> {
+    let mut words =
+        owned(&["PK\u{3}\u{4}", "PK\u{1}\u{2}", "PK\u{5}\u{6}", "PK\u{6}\u{6}", ".npy"]);
+    words.extend(npy_words());
+    words
 }
 
 /// Tags and numbers of TIFF files.

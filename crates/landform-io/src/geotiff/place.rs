@@ -83,7 +83,7 @@ impl Tags {
             pixel_scale: vec![size_x, size_y, 0.0],
             tie_points: vec![0.0, 0.0, 0.0, x, y, 0.0],
             transformation: Vec::new(),
-            keys: own.unwrap_or_else(|| GeoKeys::of(place)),
+            keys: own.map_or_else(|| GeoKeys::of(place), GeoKeys::in_ascii),
         }
     }
 }
@@ -137,6 +137,14 @@ impl GeoKeys {
             _ => None,
         };
         size.filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
+    }
+
+    /// The same keys with a text that a tag can hold. Keys point at bytes of the text, so each
+    /// other byte becomes one letter.
+    fn in_ascii(mut self) -> Self {
+        let letter = |byte: u8| if byte.is_ascii() && byte != 0 { char::from(byte) } else { '?' };
+        self.text = self.text.bytes().map(letter).collect();
+        self
     }
 
     /// Keys for a system that comes from elsewhere.

@@ -155,6 +155,7 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     };
     let declarations: Vec<Vec<Declaration>> = scenario.stages.iter().map(declare).collect();
     let fields = collect_fields(&declarations)?;
+    check_groups(&declarations)?;
     let uses: Vec<Declaration> = declarations.into_iter().flatten().collect();
     let bytes = |directions| memory::bytes_per_node(fields.bytes_per_node(), &uses, directions);
     if let Some(nodes) = scenario.domain.value.nodes() {
@@ -191,6 +192,29 @@ fn collect_fields(declarations: &[Vec<Declaration>]) -> Result<FieldTable, Probl
         fields.insert(FieldEntry::derived("surface", "m", meaning, surface));
     }
     Ok(fields)
+}
+
+/// Refuses two groups of one name, which would share one place in checkpoints.
+fn check_groups(declarations: &[Vec<Declaration>]) -> Result<(), Problem> {
+    let mut known: Vec<GroupEntry> = Vec::new();
+    for (stage, processes) in declarations.iter().enumerate() {
+        for (index, uses) in processes.iter().enumerate() {
+            for group in &uses.groups {
+                if known
+                    .iter()
+                    .any(|other| other.listing.name == group.listing.name && other.id != group.id)
+                {
+                    let message =
+                        format!("two groups of agents are called `{}`", group.listing.name);
+                    let path = format!("stages[{stage}].processes[{index}]");
+                    return Err(Problem::new(path, message, "a name for each group")
+                        .help("rename the group in one of the plugins"));
+                }
+                known.push(*group);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The groups of all processes, each once.

@@ -1,7 +1,10 @@
 //! A stage at work: the schedules of its processes, one turn each at every iteration.
 
 use bevy_app::App;
-use bevy_ecs::schedule::{LogLevel, Schedule, ScheduleBuildSettings, ScheduleLabel, Schedules};
+use bevy_ecs::schedule::{
+    LogLevel, Schedule, ScheduleBuildError, ScheduleBuildSettings, ScheduleBuildWarning,
+    ScheduleGraph, ScheduleLabel, Schedules,
+};
 use bevy_ecs::world::World;
 
 use super::state::State;
@@ -84,6 +87,22 @@ fn take(
         ambiguity_detection: LogLevel::Error,
         ..ScheduleBuildSettings::default()
     });
-    schedule.initialize(app.world_mut()).map_err(|error| broken(format!("{error:?}")))?;
-    Ok(schedule)
+    match schedule.initialize(app.world_mut()) {
+        Ok(_) => Ok(schedule),
+        Err(error) => Err(broken(explained(&error, schedule.graph(), app.world()))),
+    }
+}
+
+/// Why a schedule cannot be built; systems without an order are named with what they share.
+fn explained(error: &ScheduleBuildError, graph: &ScheduleGraph, world: &World) -> String {
+    let ScheduleBuildError::Elevated(ScheduleBuildWarning::Ambiguity(conflicts)) = error else {
+        return error.to_string(graph, world);
+    };
+    let pairs = conflicts.0.to_string(graph, world.components()).map(|(first, second, shared)| {
+        let shared: Vec<_> = shared.iter().map(|name| name.shortname().to_string()).collect();
+        format!("{first} and {second} share {}", shared.join(", "))
+    });
+    let pairs: Vec<String> = pairs.collect();
+    let advice = "nothing says which comes first; add them in an order, (first, second).chain()";
+    format!("{}; {advice}", pairs.join("; "))
 }
