@@ -63,12 +63,79 @@ fn every_name_has_a_page_and_a_schema_with_all_its_parameters() {
 }
 
 #[test]
+fn the_schema_of_scenarios_is_closed_and_has_every_name() {
+    let schema: Value = serde_json::from_str(&told("schema")).expect("JSON");
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    assert_eq!(schema["additionalProperties"], false);
+    let kinds = ["domain", "initial", "process", "metric", "output"];
+    let names = names();
+    let registered = ["domains", "initial", "processes", "metrics", "outputs"].map(|k| &names[k]);
+    for (kind, registered) in kinds.iter().zip(registered) {
+        let alternatives = schema["$defs"][kind]["oneOf"].as_array().expect("alternatives");
+        let found: Vec<&str> = alternatives
+            .iter()
+            .filter_map(|each| {
+                each["required"][0].as_str().filter(|_| each["additionalProperties"] == false)
+            })
+            .collect();
+        assert_eq!(&found, registered, "{kind}");
+    }
+    // A parameter has there what its definition says.
+    let dunes = schema["$defs"]["process"]["oneOf"].as_array().into_iter().flatten();
+    let dunes = dunes.map(|each| &each["properties"]["Dunes"]).find(|each| each.is_object());
+    let repose = &dunes.expect("dunes")["properties"]["repose_deg"];
+    assert_eq!(
+        (&repose["maximum"], &repose["x-unit"]),
+        (&Value::from(89.0), &Value::from("degrees"))
+    );
+    assert_references(&schema, &schema);
+}
+
+/// Checks that every reference of a schema leads somewhere.
+fn assert_references(whole: &Value, part: &Value) {
+    match part {
+        Value::Object(keys) => {
+            if let Some(target) = keys.get("$ref").and_then(Value::as_str) {
+                let pointer = target.strip_prefix('#').expect("within the document");
+                assert!(whole.pointer(pointer).is_some(), "{target}");
+            }
+            keys.values().for_each(|value| assert_references(whole, value));
+        }
+        Value::Array(items) => items.iter().for_each(|item| assert_references(whole, item)),
+        _ => {}
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_scenario_can_be_read_by_an_editor() {
+    let scratch = Scratch::new("editor");
+    scratch.write("good.ron", SMALL);
+    scratch.write("bad.ron", SMALL.replace("slab_m", "slap_m"));
+    let call = |line: &str| Program::within(scratch.folder()).line(line).run();
+    assert_eq!(call("check --json good.ron").good(), "[]\n");
+    let ended = call("check --json good.ron bad.ron none.ron");
+    assert_eq!(ended.status, Some(2), "{ended:?}");
+    let list: Value = serde_json::from_str(&ended.stdout).expect("JSON");
+    assert_eq!(list.as_array().map(Vec::len), Some(2), "{list}");
+    let bad = &list[0];
+    let line = SMALL.lines().position(|line| line.contains("slab_m")).expect("a line");
+    let column = SMALL.lines().nth(line).and_then(|line| line.find("slab_m")).expect("a column");
+    assert_eq!(bad["file"], "bad.ron");
+    assert_eq!(bad["start"], serde_json::json!([line + 1, column + 1]));
+    assert_eq!(bad["end"], serde_json::json!([line + 1, column + 7]));
+    assert_eq!(bad["help"], "did you mean \"slab_m\"?");
+    assert_eq!((&list[1]["file"], &list[1]["start"]), (&Value::from("none.ron"), &Value::Null));
+}
+
+#[test]
 fn help_has_examples_and_every_command_is_explained() {
     let help = told("--help");
     assert!(help.contains("Examples:\n  landform run scenarios/"), "{help}");
     let commands = help.split("Commands:").nth(1).and_then(|rest| rest.split("\n\n").next());
     let commands = listed(commands.expect("a list of commands"));
-    for command in ["run", "check", "list", "describe", "export", "view", "completions"] {
+    let expected =
+        ["run", "check", "list", "describe", "schema", "export", "view", "sweep", "collect"];
+    for command in expected {
         assert!(commands.contains(&command), "{command} in {commands:?}");
     }
     for command in commands.iter().filter(|&&command| command != "help") {

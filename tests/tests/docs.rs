@@ -102,7 +102,18 @@ mod commands {
     use std::process::{Command, Stdio};
 
     /// Commands that finish at once or can be cut; `reproduce` runs for minutes.
-    const RUN: [&str; 7] = ["run", "check", "list", "describe", "export", "view", "completions"];
+    const RUN: [&str; 10] = [
+        "run",
+        "check",
+        "list",
+        "describe",
+        "schema",
+        "export",
+        "view",
+        "sweep",
+        "collect",
+        "completions",
+    ];
 
     /// The calls of the program in a block, without prompt, continued lines joined.
     fn calls(block: &Block) -> Vec<String> {

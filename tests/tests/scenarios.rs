@@ -13,11 +13,14 @@ use landform_tests::{Program, Scratch, cuts, files_below, repository, shown, wri
 use serde_json::Value;
 
 /// Scenario files; tables and other data lie in `scenarios/data`, and what `landform reproduce`
-/// reads is called `NAME.targets.ron`.
+/// reads is called `NAME.targets.ron`, sweeps `NAME.sweep.ron`.
 fn scenarios() -> Vec<PathBuf> {
     let data = repository().join("scenarios/data");
     let mut files = files_below("scenarios", "ron");
-    files.retain(|file| !file.starts_with(&data) && !shown(file).ends_with(".targets.ron"));
+    let other = [".targets.ron", ".sweep.ron"];
+    files.retain(|file| {
+        !file.starts_with(&data) && !other.iter().any(|ending| shown(file).ends_with(ending))
+    });
     assert!(!files.is_empty(), "there are scenarios");
     files
 }

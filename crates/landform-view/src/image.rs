@@ -47,6 +47,34 @@ impl Image {
         }
     }
 
+    /// The picture at most `width` pixels wide, each of them the mean of the pixels that it
+    /// replaces; as it is where it is not wider.
+    #[must_use]
+    pub fn shrunk(&self, width: usize) -> Self {
+        let width = width.max(1);
+        if self.width <= width {
+            return self.clone();
+        }
+        let height = (self.height * width / self.width).max(1);
+        let part =
+            |index: usize, of: usize, size: usize| index * size / of..(index + 1) * size / of;
+        let mut rgb = Vec::with_capacity(width * height);
+        for row in 0..height {
+            for column in 0..width {
+                let (mut sum, mut count) = ([0_u64; 3], 0);
+                for y in part(row, height, self.height) {
+                    for x in part(column, width, self.width) {
+                        let pixel = self.pixel(x, y);
+                        sum = [0, 1, 2].map(|channel| sum[channel] + u64::from(pixel[channel]));
+                        count += 1;
+                    }
+                }
+                rgb.push(sum.map(|sum| (sum / count) as u8));
+            }
+        }
+        Self { width, height, rgb }
+    }
+
     /// Checks that the number of colours fits the size.
     pub(crate) fn check(&self) -> Result<(), ViewError> {
         ViewError::check_size("a picture", [self.width, self.height], 1)?;

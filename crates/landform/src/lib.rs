@@ -31,6 +31,7 @@ pub mod outputs;
 mod program;
 mod registry;
 pub mod reproduce;
+mod sweep;
 
 pub use landform_analysis as analysis;
 pub use landform_dunes as dunes;

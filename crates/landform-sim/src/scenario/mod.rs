@@ -2,10 +2,12 @@
 
 mod file;
 mod read;
+mod schema;
 pub(crate) mod validate;
 
 pub use file::{InitialEntry, Scenario, StageEntry};
 pub use read::ScenarioSource;
+pub use schema::scenario_schema;
 
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use ron::extensions::Extensions;
 use super::Scenario;
 use crate::parameters::Problem;
 use crate::registry::{Registry, reading};
-use crate::text::{Diagnostic, Source, Tree, locate, ron_diagnostic, set};
+use crate::text::{Diagnostic, Located, Source, Tree, locate, ron_diagnostic, set};
 
 /// The largest scenario file that is read: far above any that a person writes.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -78,30 +78,55 @@ impl ScenarioSource {
     /// # Errors
     /// Messages with file, line and column, what was expected and what to do.
     pub fn parse(&self, registry: &Arc<Registry>) -> Result<Scenario, String> {
+        self.diagnose(registry).map_err(|diagnostics| {
+            let texts = diagnostics.iter().map(|diagnostic| self.show(diagnostic));
+            texts.collect::<Vec<_>>().join("\n")
+        })
+    }
+
+    /// As [`ScenarioSource::parse`], with messages that other programs can take apart.
+    ///
+    /// # Errors
+    /// All messages.
+    pub fn diagnose(&self, registry: &Arc<Registry>) -> Result<Scenario, Vec<Diagnostic>> {
         let options = ron::Options::default().with_default_extension(
             Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES,
         );
         let scenario: Scenario = reading(registry, || options.from_str(self.source.text()))
-            .map_err(|error| ron_diagnostic(&self.source, &error).render(&self.source))?;
+            .map_err(|error| vec![ron_diagnostic(&self.source, &error)])?;
         let problems = scenario.problems();
-        if problems.is_empty() {
-            return Ok(scenario);
+        match problems.is_empty() {
+            true => Ok(scenario),
+            false => Err(problems.iter().map(|problem| self.diagnostic(problem)).collect()),
         }
-        Err(problems.iter().map(|problem| self.render(problem)).collect::<Vec<_>>().join("\n"))
     }
 
     /// A problem as a message that points at its parameter in the text.
     pub fn render(&self, problem: &Problem) -> String {
+        self.show(&self.diagnostic(problem))
+    }
+
+    /// As [`ScenarioSource::render`], for other programs.
+    pub fn diagnostic(&self, problem: &Problem) -> Diagnostic {
         let tree = Tree::parse(self.source.text());
-        let span = nearest_place(&tree, &problem.parameter);
         let mut diagnostic = Diagnostic::new(match problem.parameter.as_str() {
             "" => problem.message.clone(),
             path => format!("{path}: {}", problem.message),
         });
-        diagnostic.span = span;
+        diagnostic.span = nearest_place(&tree, &problem.parameter);
         diagnostic.expected = Some(problem.expected.clone()).filter(|text| !text.is_empty());
         diagnostic.help = Some(problem.help.clone()).filter(|text| !text.is_empty());
+        diagnostic
+    }
+
+    /// A message about this scenario as text, with the line it is about.
+    pub fn show(&self, diagnostic: &Diagnostic) -> String {
         diagnostic.render(&self.source)
+    }
+
+    /// A message about this scenario with its place in lines and columns.
+    pub fn located(&self, diagnostic: &Diagnostic) -> Located {
+        diagnostic.located(&self.source)
     }
 }
 

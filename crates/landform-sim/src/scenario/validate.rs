@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Scenario, StageEntry};
 use crate::parameters::Problem;
 use crate::registry::{AnyOutput, AnyParameters, Chosen};
-use crate::simulation::Limits;
+use crate::simulation::{Limits, Needs};
 
 impl Scenario {
     /// Everything wrong with the scenario that its text alone shows, with full paths.
@@ -55,11 +55,11 @@ impl Scenario {
 impl Scenario {
     /// Checks everything that can be checked without running: reads the files of the domain
     /// and checks the processes against it, but allocates no nodes. Larger domains than fit
-    /// into the limits are refused.
+    /// into the limits are refused. Returns what the run will need.
     ///
     /// # Errors
     /// The first [`Problem`], with the full path of its parameter.
-    pub fn check(&self, folder: &Path, limits: Limits) -> Result<(), Problem> {
+    pub fn check(&self, folder: &Path, limits: Limits) -> Result<Needs, Problem> {
         crate::simulation::check(self, folder, limits)
     }
 }

@@ -44,6 +44,17 @@ impl Default for Limits {
 /// A metric that decides when an output is due, the output's name and its path.
 pub(super) type Schedule = (String, &'static str, String);
 
+/// What a run will need, before anything is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// Number of nodes.
+    pub nodes: u64,
+    /// Memory in bytes.
+    pub memory_bytes: u64,
+    /// Size of its final fields on the disk in bytes, as numbers of eight bytes.
+    pub field_bytes: u64,
+}
+
 /// A run that is ready to go.
 pub struct Simulation {
     pub(super) app: App,
@@ -68,7 +79,7 @@ impl Simulation {
     /// # Errors
     /// The [`Problem`] holds the full path of the parameter in the scenario.
     pub fn new(scenario: Scenario, folder: &Path, limits: Limits) -> Result<Self, Problem> {
-        let Plan { domain, fields, uses } = plan(&scenario, folder, limits)?;
+        let Plan { domain, fields, uses, .. } = plan(&scenario, folder, limits)?;
         let mut app = App::empty();
         let world = app.world_mut();
         fields.declare_all(world);
@@ -138,11 +149,12 @@ struct Plan {
     domain: Domain,
     fields: FieldTable,
     uses: Vec<Declaration>,
+    needs: Needs,
 }
 
 /// Checks a scenario without making nodes.
-pub(crate) fn check(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<(), Problem> {
-    plan(scenario, folder, limits).map(|_| ())
+pub(crate) fn check(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Needs, Problem> {
+    plan(scenario, folder, limits).map(|plan| plan.needs)
 }
 
 /// Directions of the lattices with the fewest, for an estimate before there is a lattice.
@@ -169,7 +181,13 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     let groups = GroupTable(listings(&collect_groups(&uses)));
     check_metrics(scenario, &fields, &groups, &domain.lattice)?;
     check_outputs(scenario, &fields, &groups, &domain.lattice)?;
-    Ok(Plan { domain, fields, uses })
+    let nodes = domain.lattice.node_count() as u64;
+    let needs = Needs {
+        nodes,
+        memory_bytes: nodes.saturating_mul(bytes as u64),
+        field_bytes: nodes.saturating_mul(8 * fields.iter().count() as u64),
+    };
+    Ok(Plan { domain, fields, uses, needs })
 }
 
 /// All fields that the processes name, and the surface when there is a bed or sand.

@@ -16,7 +16,7 @@ mod turn;
 mod tests;
 
 pub(crate) use build::check;
-pub use build::{Limits, Simulation};
+pub use build::{Limits, Needs, Simulation};
 pub use checkpoint::Keeper;
 pub use error::RunError;
 pub use progress::{Progress, ProgressHook};

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use super::source::{Place, Position, Source, Span};
 
 /// Most characters of a line that a message shows.
@@ -24,7 +26,43 @@ pub struct Diagnostic {
     pub help: Option<String>,
 }
 
+/// A message for other programs: editors, say.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Located {
+    /// Name of the file.
+    pub file: String,
+    /// Line and column where it begins, both from one; none where the place is not in the file.
+    pub start: Option<[usize; 2]>,
+    /// Line and column of the first character after it.
+    pub end: Option<[usize; 2]>,
+    /// What is wrong.
+    pub message: String,
+    /// What would have been right.
+    pub expected: Option<String>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
 impl Diagnostic {
+    /// The message with its place in lines and columns.
+    pub fn located(&self, source: &Source) -> Located {
+        let ends = match self.span.map(|span| source.place(span)) {
+            Some(Place::File { text, span }) => Some([span.start, span.end].map(|offset| {
+                let Position { line, column } = Position::of(text, offset);
+                [line, column]
+            })),
+            _ => None,
+        };
+        Located {
+            file: source.name().to_owned(),
+            start: ends.map(|[start, _]| start),
+            end: ends.map(|[_, end]| end),
+            message: self.message.clone(),
+            expected: self.expected.clone(),
+            help: self.help.clone(),
+        }
+    }
+
     /// A message without a position.
     pub fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), span: None, expected: None, help: None }

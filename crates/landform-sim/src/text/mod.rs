@@ -16,7 +16,7 @@ mod ron_error;
 mod source;
 mod tree;
 
-pub use diagnostic::{Diagnostic, render_all};
+pub use diagnostic::{Diagnostic, Located, render_all};
 pub use edit::set;
 pub use nearest::{nearest, one_of};
 pub use path::{locate, locate_key};

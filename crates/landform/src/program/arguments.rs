@@ -19,7 +19,8 @@ const EXAMPLES: &str = "Examples:
   landform run scenarios/gallery/dunes_on_dem.ron --set domain.path=my_dem.tif
   landform describe Dunes
   landform export out/dunes --field surface --to dunes.tif
-  landform view out/dunes -o dunes.png --look perspective --bearing 120";
+  landform view out/dunes -o dunes.png --look perspective --bearing 120
+  landform sweep scenarios/tutorial/slab.sweep.ron -o out/slab";
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
@@ -41,6 +42,9 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Print the JSON schema of whole scenarios, for editors
+    #[command(after_help = "Example:\n  landform schema > scenario.schema.json")]
+    Schema,
     /// Write a field of a finished run as a raster or a mesh
     #[command(
         after_help = "The extension of FILE chooses the format: .npy .tif .asc .png (16-bit \
@@ -55,6 +59,22 @@ pub(crate) enum Command {
     /// Run figures and tables of the thesis over several seeds: our numbers beside the thesis'
     #[command(after_help = "Example:\n  landform reproduce table_4_1 -o out/table")]
     Reproduce(ReproduceArguments),
+    /// Run a scenario many times, over parameters and seeds
+    #[command(after_help = "Called again with the same folder, a sweep that was stopped goes on: \
+        runs that are done stay.\n\nExamples:\n  \
+        landform sweep scenarios/tutorial/slab.sweep.ron --dry-run\n  \
+        landform sweep scenarios/tutorial/slab.sweep.ron -o out/slab --jobs 2\n  \
+        landform collect out/slab\n\n\
+        On a cluster, as one of ten jobs of an array: \
+        landform sweep S.sweep.ron -o DIR --index $SLURM_ARRAY_TASK_ID/10")]
+    Sweep(SweepArguments),
+    /// Gather the runs of a sweep into its table, contact sheet and plots
+    #[command(after_help = "Works while the sweep runs, and after the last share of a cluster's \
+        array of jobs.")]
+    Collect {
+        /// Output folder of the sweep
+        folder: PathBuf,
+    },
     /// Print a completion script for a shell
     #[command(
         after_help = "Example:\n  landform completions bash > ~/.local/share/bash-completion/completions/landform"
@@ -134,12 +154,45 @@ impl Interval {
 
 #[derive(Args)]
 pub(crate) struct CheckArguments {
-    /// Scenario files
+    /// Scenario files, and sweep files (*.sweep.ron)
     #[arg(required = true)]
     pub scenarios: Vec<PathBuf>,
     /// Replace a value in each of them
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Print what is wrong as a JSON list on standard output, for editors
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct SweepArguments {
+    /// The sweep file (*.sweep.ron)
+    pub sweep: PathBuf,
+    /// Output folder; without it a new one below ./out, named after the sweep
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// List the runs and what they need, and stop
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Most runs at a time; without it one for each thread. Results are the same for any number
+    #[arg(long)]
+    pub jobs: Option<usize>,
+    /// Number of threads for all runs together; all cores without it
+    #[arg(long)]
+    pub threads: Option<usize>,
+    /// Only the I-th of N shares of the runs, counted from 1
+    #[arg(long, value_name = "I/N")]
+    pub index: Option<String>,
+    /// Largest memory of the runs that go on at a time; without it most of what is free
+    #[arg(long, value_name = "GIB")]
+    pub memory_limit_gib: Option<f64>,
+    /// Largest size of the final fields of all runs on the disk
+    #[arg(long, value_name = "GIB", default_value_t = 50.0)]
+    pub disk_limit_gib: f64,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum, PartialEq, Eq)]

@@ -1,30 +1,78 @@
-//! `landform check`: reads scenarios and builds their domains without running them.
+//! `landform check`: reads scenarios and sweeps, and builds their domains without running them.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
 use landform_sim::simulation::Limits;
+use landform_sim::text::Located;
 
 use super::arguments::CheckArguments;
 use super::{Failure, Outcome, memory, run, talk};
+use crate::sweep;
+
+/// What is wrong with a file: for people and for programs.
+struct Wrong {
+    text: String,
+    located: Vec<Located>,
+}
 
 /// Checks every scenario and reports all that are wrong.
 pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Outcome {
     let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
     let limits = Limits { memory_bytes };
-    let mut messages = Vec::new();
+    let (mut messages, mut located) = (Vec::new(), Vec::new());
     for path in &arguments.scenarios {
-        let checked = run::open(path, &arguments.set).and_then(|source| {
-            let scenario = source.parse(registry)?;
-            scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))
-        });
+        let checked = match path.to_string_lossy().ends_with(sweep::ENDING) {
+            true => check_sweep(path, registry, limits),
+            false => check_scenario(path, &arguments.set, registry, limits),
+        };
         match checked {
-            Ok(()) => talk::say(&format!("{}: good\n", path.display()))?,
-            Err(message) => messages.push(message),
+            Ok(good) if !arguments.json => talk::say(&format!("{}: {good}\n", path.display()))?,
+            Ok(_) => {}
+            Err(wrong) => {
+                messages.push(wrong.text);
+                located.extend(wrong.located);
+            }
         }
+    }
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&located).unwrap_or_default();
+        talk::say(&(text + "\n"))?;
     }
     match messages.is_empty() {
         true => Ok(()),
         false => Err(Failure::Refused(messages.join("\n"))),
     }
+}
+
+fn check_scenario(
+    path: &Path,
+    edits: &[String],
+    registry: &Arc<Registry>,
+    limits: Limits,
+) -> Result<String, Wrong> {
+    let source = run::open(path, edits).map_err(|text| whole(path, text))?;
+    let checked = source.diagnose(registry).and_then(|scenario| {
+        let checked = scenario.check(source.folder(), limits);
+        checked.map_err(|problem| vec![source.diagnostic(&problem)])
+    });
+    checked.map(|_| "good".to_owned()).map_err(|diagnostics| {
+        let located: Vec<Located> = diagnostics.iter().map(|each| source.located(each)).collect();
+        let texts = diagnostics.iter().map(|each| source.show(each)).collect::<Vec<_>>();
+        Wrong { text: texts.join("\n"), located }
+    })
+}
+
+/// Checks a sweep with all its runs.
+fn check_sweep(path: &Path, registry: &Arc<Registry>, limits: Limits) -> Result<String, Wrong> {
+    let prepared = sweep::prepare(path, registry, limits).map_err(|text| whole(path, text))?;
+    Ok(format!("good, {} runs", prepared.plan.runs.len()))
+}
+
+/// A message about a file as a whole.
+fn whole(path: &Path, text: String) -> Wrong {
+    let file = path.display().to_string();
+    let located = Located { file, message: text.clone(), ..Located::default() };
+    Wrong { text, located: vec![located] }
 }

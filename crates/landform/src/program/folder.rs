@@ -36,7 +36,7 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
 }
 
 /// The first of `out/STEM`, `out/STEM-2`, ... that does not exist.
-fn fresh(stem: &str) -> PathBuf {
+pub(super) fn fresh(stem: &str) -> PathBuf {
     let first = Path::new("out").join(stem);
     if !first.exists() {
         return first;
@@ -72,14 +72,14 @@ pub(super) fn remove_leftovers(folder: &Path) {
 }
 
 /// Writes text into a file of the folder.
-pub(super) fn write_text(path: &Path, text: &str) -> Result<(), String> {
+pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), String> {
     use std::io::Write;
     write_atomically(path, IfExists::Replace, |file| file.write_all(text.as_bytes()))
         .map_err(|error| error.to_string())
 }
 
 /// Writes a value as JSON into a file of the folder.
-pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), String> {
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), String> {
     let text = serde_json::to_string_pretty(value).map_err(|error| error.to_string())?;
     write_text(path, &(text + "\n"))
 }

@@ -3,6 +3,7 @@
 mod arguments;
 mod check;
 mod checkpoint_file;
+mod collect;
 mod describe;
 mod export;
 mod folder;
@@ -13,6 +14,7 @@ mod progress_bar;
 mod reproduce;
 mod resume;
 mod run;
+mod sweep;
 mod talk;
 mod view;
 
@@ -23,6 +25,7 @@ use clap::{CommandFactory, Parser};
 use landform_sim::registry::Registry;
 
 use arguments::{Arguments, Command};
+pub(crate) use folder::{write_json, write_text};
 
 /// How a command ended without doing what it was asked.
 pub(crate) enum Failure {
@@ -71,9 +74,12 @@ impl Program {
             Command::Check(arguments) => check::check(&arguments, &registry),
             Command::List { kind } => list::list(kind, &registry),
             Command::Describe { name, json } => describe::describe(&name, json, &registry),
+            Command::Schema => schema(&registry),
             Command::Export(arguments) => export::export(&arguments),
             Command::View(arguments) => view::view(&arguments),
             Command::Reproduce(arguments) => reproduce::reproduce(&arguments, &registry),
+            Command::Sweep(arguments) => sweep::sweep(&arguments, &registry),
+            Command::Collect { folder } => collect::collect(&folder),
             Command::Completions { shell } => {
                 let mut command = Arguments::command();
                 let mut script = Vec::new();
@@ -90,4 +96,10 @@ impl Program {
         talk::complain(&message);
         ExitCode::from(code)
     }
+}
+
+/// `landform schema`: the JSON schema of whole scenarios.
+fn schema(registry: &Registry) -> Outcome {
+    let schema = landform_sim::scenario::scenario_schema(registry);
+    talk::say(&(serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"))
 }

@@ -132,7 +132,8 @@ pub(super) fn open(path: &Path, edits: &[String]) -> Result<ScenarioSource, Stri
     Ok(source)
 }
 
-fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, String> {
+/// Threads for a run, all cores without a number.
+pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, String> {
     if threads.is_some_and(|threads| !(1..=1024).contains(&threads)) {
         return Err("--threads must be from 1 to 1024".to_owned());
     }
