@@ -42,68 +42,79 @@ pub(crate) fn prepare(
 ) -> Result<Prepared, String> {
     let source = SweepSource::open(path)?;
     let sweep = source.parse(path)?;
-    let at = |place: &str, message: String, expected: &str| {
-        source.render(&Problem::new(place, message, expected))
-    };
     let (parameters, runs) = runs(&sweep).map_err(|problem| source.render(&problem))?;
-    let scenario = source.folder().join(&sweep.scenario);
-    let base = ScenarioSource::open(&scenario)
-        .map_err(|why| at("scenario", why, "the path of a scenario, relative to this file"))?;
-    let base = with_changes(base, &sweep).map_err(|(index, why)| {
-        at(&format!("set[{index}]"), "the scenario cannot be changed so".to_owned(), "")
-            + "\n"
-            + &why
-    })?;
-    let paths: Vec<String> = parameters.iter().map(|varied| varied.path.clone()).collect();
+    let names: Vec<String> = parameters.iter().map(|varied| varied.name.clone()).collect();
+    check_plots(&sweep, &names).map_err(|problem| source.render(&problem))?;
     let mut prepared = Prepared {
+        base: base(&sweep, &source)?,
         plan: Plan {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            title: sweep.title.clone(),
-            plots: sweep.plots.clone(),
-            names: parameters.iter().map(|varied| varied.name.clone()).collect(),
-            paths,
+            title: sweep.title,
+            plots: sweep.plots,
+            names,
+            paths: parameters.iter().map(|varied| varied.path.clone()).collect(),
             runs: Vec::with_capacity(runs.len()),
         },
         needs: Vec::with_capacity(runs.len()),
-        base,
     };
-    check_plots(&sweep, &prepared.plan.names).map_err(|problem| source.render(&problem))?;
-    for (index, run) in runs.into_iter().enumerate() {
-        let Run { point, seed, values } = run;
-        let checked = with_values(&prepared.base, &prepared.plan.paths, &values, seed)
-            .and_then(|source| Ok((digest(source.text()), needs(&source, registry, limits)?)));
-        let (digest, needs) = checked.map_err(|why| {
-            let varied = culprit(&parameters, &why);
-            let value = varied.map_or(String::new(), |(varied, index)| {
-                format!(" with {} = {}", varied.name, values[index])
-            });
-            let place = varied.map_or("scenario", |(varied, _)| &varied.place);
-            let message = format!("run {}{value} is refused", index + 1);
-            at(place, message, "") + "\n" + &why
-        })?;
-        let number = index + 1;
-        prepared.plan.runs.push(PlannedRun { number, point, seed, values, digest });
-        prepared.needs.push(needs);
+    for run in runs {
+        let added = prepared.add(&run, registry, limits);
+        added.map_err(|why| refusal(&source, &parameters, &run, prepared.needs.len(), &why))?;
     }
     Ok(prepared)
+}
+
+impl Prepared {
+    /// Checks a run and adds it.
+    fn add(&mut self, run: &Run, registry: &Arc<Registry>, limits: Limits) -> Result<(), String> {
+        let Run { point, seed, values } = run.clone();
+        let source = with_values(&self.base, &self.plan.paths, &values, seed)?;
+        let scenario = source.parse(registry)?;
+        let needs = scenario.check(source.folder(), limits);
+        self.needs.push(needs.map_err(|problem| source.render(&problem))?);
+        let (number, digest) = (self.needs.len(), digest(source.text()));
+        self.plan.runs.push(PlannedRun { number, point, seed, values, digest });
+        Ok(())
+    }
+}
+
+/// The refusal of the run after `earlier` others: at its parameter in the sweep, then what is
+/// wrong with its scenario.
+fn refusal(
+    source: &SweepSource,
+    parameters: &[Varied],
+    run: &Run,
+    earlier: usize,
+    why: &str,
+) -> String {
+    let varied = culprit(parameters, why);
+    let value = varied.map_or(String::new(), |(varied, index)| {
+        format!(" with {} = {}", varied.name, run.values[index])
+    });
+    let place = varied.map_or("scenario", |(varied, _)| &varied.place);
+    let message = format!("run {}{value} is refused", earlier + 1);
+    source.render(&Problem::new(place, message, "")) + "\n" + why
+}
+
+/// The scenario with the changes that all runs share.
+fn base(sweep: &Sweep, source: &SweepSource) -> Result<ScenarioSource, String> {
+    let mut base = ScenarioSource::open(&source.folder().join(&sweep.scenario)).map_err(|why| {
+        let expected = "the path of a scenario, relative to this file";
+        source.render(&Problem::new("scenario", why, expected))
+    })?;
+    for (index, change) in sweep.set.iter().enumerate() {
+        base.set(&change.path, change.value.trim().get_ron()).map_err(|why| {
+            let message = "the scenario cannot be changed so";
+            source.render(&Problem::new(format!("set[{index}]"), message, "")) + "\n" + &why
+        })?;
+    }
+    Ok(base)
 }
 
 /// The parameter that a message about a scenario points at.
 fn culprit<'p>(parameters: &'p [Varied], why: &str) -> Option<(&'p Varied, usize)> {
     let named = |varied: &Varied| why.contains(&format!("--set {}=", varied.path));
     parameters.iter().position(named).map(|index| (&parameters[index], index))
-}
-
-/// The scenario with the changes that all runs share; else the number of the change and why.
-fn with_changes(
-    mut base: ScenarioSource,
-    sweep: &Sweep,
-) -> Result<ScenarioSource, (usize, String)> {
-    for (index, change) in sweep.set.iter().enumerate() {
-        let value = change.value.trim().get_ron();
-        base.set(&change.path, value).map_err(|why| (index, why))?;
-    }
-    Ok(base)
 }
 
 /// The scenario with the values and the seed of a run.
@@ -119,15 +130,6 @@ fn with_values(
     }
     source.set("seed", &seed.to_string())?;
     Ok(source)
-}
-
-fn needs(
-    source: &ScenarioSource,
-    registry: &Arc<Registry>,
-    limits: Limits,
-) -> Result<Needs, String> {
-    let scenario = source.parse(registry)?;
-    scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))
 }
 
 /// Checks that plots name parameters of the sweep.
