@@ -230,7 +230,7 @@ fn what_is_wrong_is_refused_before_the_first_run() {
         (
             "(path: \"stages[0].processes.Dunes.slab_m\", values: [1.0, 2.0, 3.0])",
             &many,
-            &["1000000000 runs", "at most 100000"][..],
+            &["2000000000 runs", "at most 100000"][..],
         ),
         (
             "title:",
