@@ -1,4 +1,6 @@
-//! Measures of terrain: spectra and their fits.
+//! Measures of terrain and of lines.
+//!
+//! # Spectra
 //!
 //! A [`Spectrum`] holds the amplitude of every wave of a height field. From it come
 //! - [`SpectralFit`]: the two numbers that the thesis prints under each of its spectral plots
@@ -9,14 +11,39 @@
 //!
 //! A lattice that does not repeat has a step at its borders, which a Fourier transform takes
 //! for roughness: [`remove_plane`] and [`taper`] lessen it.
+//!
+//! # Hypsometry
+//! A [`HypsometricCurve`] holds how much of a terrain lies above each height; [`Hypsometry`]
+//! fits Strahler's family of curves to it and names the stage of erosion.
+//!
+//! # Fractal dimension
+//! Of lines, by [`divider_dimension`] and [`box_dimension`]; of the boundary of a set of cells,
+//! by [`perimeter_dimension`]; of a height field, by [`variogram_dimension`]. The coasts of a
+//! raster are [`level_sets`].
 
 mod detrend;
+mod dimension;
 mod fit;
+mod hypsometry;
+mod level_set;
 mod line;
+mod polyline;
 mod radial;
 mod spectrum;
+mod summary;
 
 pub use detrend::{remove_plane, taper};
+pub use dimension::{
+    Dimension, DimensionError, RangeError, ScalePoint, ScaleRange, box_dimension,
+    divider_dimension, perimeter_dimension, variogram_dimension,
+};
 pub use fit::SpectralFit;
+pub use hypsometry::{
+    FamilyFit, HypsometricCurve, HypsometricForm, HypsometricStage, Hypsometry, HypsometryError,
+    StrahlerCurve,
+};
+pub use level_set::{LevelSet, LevelSetEdge, LevelSetError, level_sets};
+pub use polyline::{Polyline, PolylineError};
 pub use radial::{PowerBin, RadialExponent, RadialSpectrum};
 pub use spectrum::{AnalysisError, Spectrum, Wave};
+pub use summary::SpectralSummary;

@@ -1,4 +1,4 @@
-//! Rasters, series of fields and meshes, in and out.
+//! Rasters, series of fields, meshes and lines, in and out.
 //!
 //! | format | read | written | metadata stand in |
 //! |---|---|---|---|
@@ -10,6 +10,7 @@
 //! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
 //! | NetCDF `.nc`, series of fields ([`netcdf`]) | no | f64 | the file |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
+//! | CSV `.csv`, GeoJSON `.geojson` ([`lines`]) | lines | no | - |
 //!
 //! The sidecar of `height.npy` is `height.npy.json` ([`Sidecar`]). Every reader takes
 //! [`ReadLimits`], checks sizes before it takes memory, and turns cells without data into NaN;
@@ -39,6 +40,7 @@ mod files;
 pub mod georeference;
 pub mod geotiff;
 mod limits;
+pub mod lines;
 pub mod mesh;
 pub mod metadata;
 pub mod netcdf;
@@ -62,6 +64,7 @@ pub use georeference::{
     CoordinateKind, CoordinateSystem, Georeference, Registration, SpacingError,
 };
 pub use limits::ReadLimits;
+pub use lines::{LineCoordinates, LineFile, read_lines};
 pub use mesh::{Mesh, write_mesh};
 pub use metadata::{Encoding, Metadata, Sidecar};
 pub use raster::Raster;
