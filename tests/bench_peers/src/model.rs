@@ -88,7 +88,7 @@ impl Timed {
         self.nanoseconds.sort_by(f64::total_cmp);
         let median = self.nanoseconds[self.nanoseconds.len() / 2] / self.cells.len() as f64;
         let ratio = base.map_or(1.0, |base| median / base);
-        println!("{name:<34} {median:>10.2} {ratio:>10.1}x");
+        println!("{name:<34} {median:>10.2} {ratio:>10.3}x");
         median
     }
 }
