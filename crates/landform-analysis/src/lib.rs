@@ -20,10 +20,18 @@
 //! Of lines, by [`divider_dimension`] and [`box_dimension`]; of the boundary of a set of cells,
 //! by [`perimeter_dimension`]; of a height field, by [`variogram_dimension`]. The coasts of a
 //! raster are [`level_sets`].
+//!
+//! # Drainage
+//! [`hydrology`] follows water over a [`grid`](grid::Grid): depressions, flow directions,
+//! contributing areas and their scaling laws. [`derivatives`] measures slope, aspect and curvature.
 
+pub mod derivatives;
 mod detrend;
 mod dimension;
 mod fit;
+mod framed;
+pub mod grid;
+pub mod hydrology;
 mod hypsometry;
 mod level_set;
 mod line;
