@@ -40,7 +40,8 @@ impl FlowDirections {
     /// descent, and over flats and lakes the way with the fewest steps to where water leaves
     /// them. Every path ends at an outlet.
     ///
-    /// On a surface with depressions their pits keep their water.
+    /// On a surface with depressions their pits keep their water. In wide lakes the shortest ways
+    /// run side by side, which is no picture of a river.
     ///
     /// [`fill_depressions`]: super::fill_depressions
     ///
