@@ -48,6 +48,16 @@ pub enum SynthError {
         /// What to change.
         remedy: &'static str,
     },
+    /// The heights of a coarse grid are not as many as the lattice needs.
+    #[error("{generator}: coarse_m must have {rows} rows of {columns} heights, or none at all")]
+    CoarseShape {
+        /// Name of the generator.
+        generator: &'static str,
+        /// Number of rows that the lattice needs.
+        rows: usize,
+        /// Number of heights that every row needs.
+        columns: usize,
+    },
 }
 
 /// The checks of one generator's parameters.

@@ -18,8 +18,11 @@
 //! periodic axes.
 
 mod error;
+mod faulting;
 mod fbm;
+mod fractal;
 mod hills;
+mod midpoint;
 mod noise;
 mod place;
 mod ramp;
@@ -30,8 +33,11 @@ mod smooth;
 mod uniform;
 
 pub use error::SynthError;
+pub use faulting::{FaultProfile, FaultTrace, Faulting};
 pub use fbm::{AmplitudeLaw, SpectralFbm};
+pub use fractal::{Basis, Cascade, FractalNoise, OctaveShape, Warp};
 pub use hills::{Cone, GaussianHill};
+pub use midpoint::{MidpointDisplacement, Subdivision};
 pub use noise::{Distribution, WhiteNoise};
 pub use ramp::Ramp;
 pub use ridge::{Ridge, RidgeCourse};

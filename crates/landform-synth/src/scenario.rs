@@ -5,8 +5,8 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, GaussianHill, Generator, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError,
-    Uniform, WhiteNoise,
+    Cone, Faulting, FractalNoise, GaussianHill, Generator, MidpointDisplacement, Ramp, Ridge,
+    Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform, WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
@@ -32,6 +32,9 @@ scenario_names!(
     WhiteNoise,
     SmoothNoise,
     SpectralFbm,
+    FractalNoise,
+    MidpointDisplacement,
+    Faulting,
     Ramp,
     Sinusoid,
     Ridge,

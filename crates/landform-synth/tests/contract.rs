@@ -15,6 +15,11 @@ fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json
         "Cone" => Box::new(serde_json::from_value::<Cone>(parameters)?),
         "GaussianHill" => Box::new(serde_json::from_value::<GaussianHill>(parameters)?),
         "Ridge" => Box::new(serde_json::from_value::<Ridge>(parameters)?),
+        "FractalNoise" => Box::new(serde_json::from_value::<FractalNoise>(parameters)?),
+        "MidpointDisplacement" => {
+            Box::new(serde_json::from_value::<MidpointDisplacement>(parameters)?)
+        }
+        "Faulting" => Box::new(serde_json::from_value::<Faulting>(parameters)?),
         "SpectralFbm" => Box::new(serde_json::from_value::<SpectralFbm>(parameters)?),
         other => panic!("no generator {other}"),
     })
@@ -31,6 +36,9 @@ fn generators() -> Vec<(&'static str, schemars::Schema)> {
         ("Cone", schemars::schema_for!(Cone)),
         ("GaussianHill", schemars::schema_for!(GaussianHill)),
         ("Ridge", schemars::schema_for!(Ridge)),
+        ("FractalNoise", schemars::schema_for!(FractalNoise)),
+        ("MidpointDisplacement", schemars::schema_for!(MidpointDisplacement)),
+        ("Faulting", schemars::schema_for!(Faulting)),
         ("SpectralFbm", schemars::schema_for!(SpectralFbm)),
     ]
 }
@@ -49,14 +57,33 @@ fn lattices() -> Vec<Lattice> {
     all
 }
 
-/// Numeric parameters of a generator with the limits in its schema.
-fn numbers(schema: &schemars::Schema) -> Vec<(String, f64, f64)> {
-    let properties = schema.as_value()["properties"].as_object().unwrap();
-    let limits = |spec: &Value| Some((spec["minimum"].as_f64()?, spec["maximum"].as_f64()?));
-    properties
-        .iter()
-        .filter_map(|(name, spec)| limits(spec).map(|(least, most)| (name.clone(), least, most)))
-        .collect()
+/// A numeric parameter of a generator.
+struct Number {
+    name: String,
+    /// Its limits in the schema.
+    limits: [Value; 2],
+    /// Values a little beyond them; for whole numbers only those that are not negative.
+    beyond: Vec<Value>,
+}
+
+/// Numeric parameters of a generator.
+fn numbers(schema: &schemars::Schema) -> Vec<Number> {
+    let number = |(name, spec): (&String, &Value)| {
+        let limits = [spec.get("minimum")?.clone(), spec.get("maximum")?.clone()];
+        let beyond = match (spec["type"] == "integer", limits[0].as_f64()?, limits[1].as_f64()?) {
+            (true, least, most) => [least as i64 - 1, most as i64 + 1]
+                .into_iter()
+                .filter(|n| *n >= 0)
+                .map(Value::from)
+                .collect(),
+            (false, least, most) => {
+                let step = (most - least) * 1e-3;
+                vec![json!(least - step), json!(most + step)]
+            }
+        };
+        Some(Number { name: name.clone(), limits, beyond })
+    };
+    schema.as_value()["properties"].as_object().unwrap().iter().filter_map(number).collect()
 }
 
 #[test]
@@ -94,8 +121,8 @@ fn only_random_fields_depend_on_the_seed() {
     for (name, _) in generators() {
         let generator = parse(name, json!({})).unwrap();
         let [first, second] = [1, 2].map(|seed| generator.generate(&lattice, seed).unwrap());
-        let random = ["WhiteNoise", "SmoothNoise", "SpectralFbm"].contains(&name);
-        assert_eq!(first != second, random, "{name}");
+        let even = ["Uniform", "Ramp", "Sinusoid", "Cone", "GaussianHill", "Ridge"];
+        assert_eq!(first == second, even.contains(&name), "{name}");
     }
 }
 
@@ -103,10 +130,12 @@ fn only_random_fields_depend_on_the_seed() {
 /// and of the right length, or refused for its lattice and not for its range.
 #[test]
 fn accepted_parameters_give_finite_fields() {
+    let surfaces = ["SpectralFbm", "FractalNoise", "MidpointDisplacement", "Faulting"];
+    let unclosed = ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting"];
     let mut fields = 0;
     for (name, schema) in generators() {
-        for (parameter, least, most) in numbers(&schema) {
-            for value in [least, most] {
+        for Number { name: parameter, limits, .. } in numbers(&schema) {
+            for value in limits {
                 let generator = parse(name, json!({ parameter.clone(): value })).unwrap();
                 for lattice in lattices() {
                     match generator.generate(&lattice, 3) {
@@ -115,13 +144,17 @@ fn accepted_parameters_give_finite_fields() {
                             assert!(field.iter().all(|v| v.is_finite()), "{name}.{parameter}");
                             fields += 1;
                         }
-                        Err(SynthError::OutOfRange { parameter, value, least, .. }) => {
-                            let with_spacing = ["correlation_length_m", "wavelength_m"];
-                            assert!(with_spacing.contains(&parameter) && value < least);
+                        Err(SynthError::OutOfRange { parameter, value, least, most, .. }) => {
+                            let of_lattice = match parameter {
+                                "correlation_length_m" | "wavelength_m" => value < least,
+                                "levels" => value > most,
+                                _ => false,
+                            };
+                            assert!(of_lattice, "{name}.{parameter}");
                         }
-                        Err(SynthError::Volume { .. }) => assert_eq!(name, "SpectralFbm"),
+                        Err(SynthError::Volume { .. }) => assert!(surfaces.contains(&name)),
                         Err(refusal) => {
-                            assert!(["Ramp", "Sinusoid"].contains(&name), "{refusal}");
+                            assert!(unclosed.contains(&name), "{refusal}");
                         }
                     }
                 }
@@ -135,9 +168,8 @@ fn accepted_parameters_give_finite_fields() {
 fn values_beyond_the_stated_range_are_refused() {
     let lattice = plane([40, 24], Boundary::Open);
     for (name, schema) in generators() {
-        for (parameter, least, most) in numbers(&schema) {
-            let step = (most - least) * 1e-3;
-            for value in [least - step, most + step] {
+        for Number { name: parameter, beyond, .. } in numbers(&schema) {
+            for value in beyond {
                 let generator = parse(name, json!({ parameter.clone(): value })).unwrap();
                 let refused = generator.generate(&lattice, 3).unwrap_err();
                 assert!(refused.to_string().contains(&parameter), "{name}: {refused}");

@@ -82,7 +82,11 @@ fn smooth_noise_has_its_standard_deviation_and_length() {
 #[test]
 fn smooth_fields_close_on_periodic_axes() {
     let lattice = periodic([50, 34]);
-    let generators: [(&str, Box<dyn Generator>); 5] = [
+    let noise = FractalNoise { wavelength_m: 150.0, octaves: 3, ..Default::default() };
+    let generators: [(&str, Box<dyn Generator>); 8] = [
+        ("gradient noise", Box::new(noise)),
+        ("simplex noise", Box::new(FractalNoise { basis: Basis::Simplex, ..noise })),
+        ("warped noise", Box::new(FractalNoise { warp: Some(Warp::default()), ..noise })),
         ("SmoothNoise", Box::new(SmoothNoise::default())),
         ("Sinusoid", Box::new(Sinusoid { direction_deg: 30.0, ..Default::default() })),
         ("Cone", Box::new(Cone { center: [0.03, 0.98], ..Default::default() })),
@@ -97,6 +101,108 @@ fn smooth_fields_close_on_periodic_axes() {
         let largest = (0..49).flat_map(east).chain((0..33).flat_map(south)).fold(0.0, f64::max);
         let seam = east(49).chain(south(33)).fold(0.0, f64::max);
         assert!(seam <= largest * 1.05 && seam > 0.0, "{name}: {seam} > {largest}");
+    }
+}
+
+/// All ways to make fractal noise, with their names.
+fn fractal_noises() -> Vec<(String, FractalNoise)> {
+    use Basis::{CellularDifference, CellularNearest, CellularSecond, Gradient, Simplex};
+    use OctaveShape::{CrossedRidges, Plain, Ridges, SharpRidges, Turbulence};
+    let plain = FractalNoise { wavelength_m: 120.0, octaves: 4, ..Default::default() };
+    let mut all = Vec::new();
+    for basis in [Gradient, Simplex, CellularNearest, CellularSecond, CellularDifference] {
+        for shape in [Plain, Turbulence, Ridges, SharpRidges, CrossedRidges] {
+            for cascade in [
+                Cascade::Sum,
+                Cascade::Multiplicative { offset: 1.0 },
+                Cascade::Hybrid { offset: 0.7 },
+                Cascade::Ridged { gain: 2.0 },
+            ] {
+                let name = format!("{basis:?} {shape:?} {cascade:?}");
+                all.push((name, FractalNoise { basis, shape, cascade, ..plain }));
+            }
+        }
+    }
+    all
+}
+
+/// A larger lattice shows more of the same surface, bit for bit, whatever it is made of.
+#[test]
+fn fractal_noise_is_a_function_of_the_place() {
+    let open = [Boundary::Open; 2];
+    let [small, large] = [plane([30, 20], open), plane([47, 33], open)];
+    for (name, noise) in fractal_noises() {
+        let noise = FractalNoise { warp: Some(Warp::default()), ..noise };
+        let [part, whole] = [&small, &large].map(|lattice| noise.generate(lattice, 8).unwrap());
+        for (row, heights) in part.chunks(30).enumerate() {
+            // Both lattices have their south-western node in common.
+            let start = 47 * (row + 13);
+            assert_eq!(heights, &whole[start..start + 30], "{name}");
+        }
+    }
+}
+
+/// A single octave of any basis and shape stays between -1 and 1.
+#[test]
+fn octaves_keep_to_their_range() {
+    let lattice = plane([200, 200], [Boundary::Open; 2]);
+    for (name, noise) in fractal_noises() {
+        if noise.cascade == Cascade::Sum {
+            let noise = FractalNoise { amplitude_m: 1.0, octaves: 1, ..noise };
+            let field = noise.generate(&lattice, 3).unwrap();
+            assert!(field.iter().all(|height| (-1.0..=1.0).contains(height)), "{name}");
+            assert!(standard_deviation(&field) > 0.1, "{name}");
+        }
+    }
+}
+
+/// Share of the curvature of a surface that lies in the upper half of its heights.
+fn roughness_above_the_median(field: &[f64], width: usize) -> f64 {
+    let mut heights = field.to_vec();
+    heights.sort_by(f64::total_cmp);
+    let median = heights[heights.len() / 2];
+    let [mut above, mut all] = [0.0; 2];
+    for node in width + 1..field.len() - width - 1 {
+        let around = field[node - 1] + field[node + 1] + field[node - width] + field[node + width];
+        let curvature = (around - 4.0 * field[node]).abs();
+        all += curvature;
+        above += if field[node] > median { curvature } else { 0.0 };
+    }
+    above / all
+}
+
+/// Fractional Brownian motion is equally rough everywhere, multifractals where they are high.
+#[test]
+fn multifractals_are_rough_where_they_are_high() {
+    let lattice = plane([256, 256], [Boundary::Open; 2]);
+    let plain = FractalNoise { wavelength_m: 640.0, hurst: 0.5, ..Default::default() };
+    let share = |noise: FractalNoise| {
+        let shares: Vec<f64> = (0..5)
+            .map(|seed| roughness_above_the_median(&noise.generate(&lattice, seed).unwrap(), 256))
+            .collect();
+        mean(&shares)
+    };
+    assert!((share(plain) - 0.5).abs() < 0.03, "{}", share(plain));
+    for cascade in [Cascade::Multiplicative { offset: 1.0 }, Cascade::Hybrid { offset: 0.7 }] {
+        let share = share(FractalNoise { cascade, ..plain });
+        assert!(share > 0.55, "{cascade:?}: {share}");
+    }
+}
+
+#[test]
+fn nested_parameters_are_checked() {
+    let lattice = plane([30, 20], [Boundary::Open; 2]);
+    let noise = FractalNoise::default();
+    let wrong = [
+        FractalNoise { cascade: Cascade::Hybrid { offset: f64::NAN }, ..noise },
+        FractalNoise { cascade: Cascade::Ridged { gain: 11.0 }, ..noise },
+        FractalNoise { warp: Some(Warp { octaves: 0, ..Default::default() }), ..noise },
+        FractalNoise { warp: Some(Warp { wavelength_m: 1.0, ..Default::default() }), ..noise },
+        FractalNoise { warp: Some(Warp { amplitude_m: 1e9, ..Default::default() }), ..noise },
+    ];
+    for noise in wrong {
+        let refused = noise.generate(&lattice, 0).unwrap_err();
+        assert!(matches!(refused, SynthError::OutOfRange { .. }), "{refused}");
     }
 }
 

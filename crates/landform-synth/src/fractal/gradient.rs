@@ -1,0 +1,110 @@
+//! Gradient noise on squares (Perlin 1985, 2002) and on triangles (simplex noise; Perlin 2001,
+//! Gustavson 2005).
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use super::cells::{CellNoise, Cells, wrapped};
+
+/// Unit vectors evenly around the circle, one of which a random number picks.
+#[derive(Debug)]
+pub(super) struct Directions([[f64; 2]; 256]);
+
+impl Directions {
+    pub fn new() -> Self {
+        Self(std::array::from_fn(|number| {
+            let (north, east) = (TAU * number as f64 / 256.0).sin_cos();
+            [east, north]
+        }))
+    }
+
+    #[inline]
+    fn pick(&self, bits: u64) -> [f64; 2] {
+        self.0[(bits >> 56) as usize]
+    }
+}
+
+/// The height at `offset` from its foot of a plane that rises along `gradient`.
+#[inline]
+fn plane(gradient: [f64; 2], offset: [f64; 2]) -> f64 {
+    gradient[0] * offset[0] + gradient[1] * offset[1]
+}
+
+/// The four corners of a unit square: south-west, south-east, north-west, north-east.
+const CORNERS: [[i64; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
+
+/// Perlin's gradient noise: a plane through 0 at every corner of a square grid, blended with
+/// the quintic that has no first and second derivative at its ends.
+#[derive(Debug)]
+pub(super) struct GradientNoise<'a> {
+    pub cells: Cells,
+    pub directions: &'a Directions,
+}
+
+impl CellNoise for GradientNoise<'_> {
+    type Cell = [[f64; 2]; 4];
+
+    fn cell(&self, column: i64, row: i64) -> Self::Cell {
+        CORNERS
+            .map(|[east, north]| self.directions.pick(self.cells.bits(column + east, row + north)))
+    }
+
+    #[inline]
+    fn value(&self, gradients: &Self::Cell, [x, y]: [f64; 2]) -> f64 {
+        let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+        let [south_west, south_east, north_west, north_east] = *gradients;
+        let [across, up] = [fade(x), fade(y)];
+        let blend = |from: f64, to: f64, share: f64| from + share * (to - from);
+        let south = blend(plane(south_west, [x, y]), plane(south_east, [x - 1.0, y]), across);
+        let north =
+            blend(plane(north_west, [x, y - 1.0]), plane(north_east, [x - 1.0, y - 1.0]), across);
+        // Four unit gradients that point at the middle give the largest value, 1 / sqrt 2.
+        SQRT_2 * blend(south, north, up)
+    }
+}
+
+/// Simplex noise on triangles with a base and a height of one wavelength, which repeat along
+/// straight axes (Gustavson and McEwan 2022): rows of corners lie half a base apart.
+#[derive(Debug)]
+pub(super) struct SimplexNoise<'a> {
+    pub cells: Cells,
+    pub directions: &'a Directions,
+}
+
+/// Square of the distance at which a corner's share ends: the opposite side of its triangles
+/// is no nearer.
+const REACH_SQUARED: f64 = 0.8;
+
+/// Brings simplex noise to -1..1: the largest sum is in the middle of a base, between two
+/// gradients that point there.
+const SIMPLEX_SCALE: f64 = 1.0 / (0.55 * 0.55 * 0.55 * 0.55);
+
+impl CellNoise for SimplexNoise<'_> {
+    type Cell = [[f64; 2]; 4];
+
+    #[inline]
+    fn skewed(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [x + 0.5 * y, y]
+    }
+
+    fn cell(&self, column: i64, row: i64) -> Self::Cell {
+        let [columns, rows] = self.cells.period();
+        CORNERS.map(|[east, north]| {
+            let [column, row] = [column + east, row + north];
+            // Twice the distance east, which is whole, and which goes round without skew.
+            let half_bases = wrapped(2 * column - row, 2 * columns);
+            self.directions.pick(self.cells.hash(half_bases, wrapped(row, rows)))
+        })
+    }
+
+    #[inline]
+    fn value(&self, gradients: &Self::Cell, [u, v]: [f64; 2]) -> f64 {
+        let share = |corner: usize| {
+            let [east, north] = CORNERS[corner].map(|number| number as f64);
+            let offset = [u - east - 0.5 * (v - north), v - north];
+            let near = (REACH_SQUARED - plane(offset, offset)).max(0.0);
+            near * near * (near * near) * plane(gradients[corner], offset)
+        };
+        let middle = if u > v { share(1) } else { share(2) };
+        SIMPLEX_SCALE * (share(0) + middle + share(3))
+    }
+}
