@@ -164,6 +164,30 @@ fn interrupted_and_killed_sweeps_go_on_to_the_same_bits() {
     assert!(files(&scratch.path("o")) == files(&scratch.path("whole")));
 }
 
+/// A folder that another sweep works in is left alone; shares work side by side.
+#[test]
+fn two_sweeps_never_work_in_one_folder() {
+    let scratch = scratch();
+    fs::create_dir(scratch.path("o")).expect("a folder");
+    let other = fs::File::open(scratch.path("o")).expect("a folder");
+    other.lock_shared().expect("a lock");
+    let refused = call(&scratch, "sweep s.sweep.ron -o o").refused();
+    assert!(refused.contains("another sweep is at work in o"), "{refused}");
+    call(&scratch, "sweep s.sweep.ron -o o --index 1/3").good();
+    drop(other);
+    call(&scratch, "sweep s.sweep.ron -o o").good();
+}
+
+#[test]
+fn a_plot_of_what_nobody_measures_is_named() {
+    let scratch = scratch();
+    let plots = r#"seeds: Count(1), plots: [(metric: "avalanche_slide_m")],"#;
+    scratch.write("s.sweep.ron", &SWEEP.replace("seeds: Count(2),", plots));
+    let told = call(&scratch, "sweep s.sweep.ron -o o").good();
+    let note = r#"no run measured "avalanche_slide_m", which is to be plotted; did you mean "avalanche_slid_m"?"#;
+    assert!(told.contains(note), "{told}");
+}
+
 #[test]
 fn a_run_that_fails_says_why_and_the_others_go_on() {
     let scratch = scratch();

@@ -22,6 +22,7 @@ pub(super) struct Gathered {
     missing: usize,
     failed: usize,
     why: Option<(usize, String)>,
+    notes: Vec<String>,
 }
 
 /// Reads the runs and writes the files.
@@ -32,13 +33,14 @@ pub(super) fn gather(plan: &Plan, folder: &Path) -> Result<Gathered, String> {
         done: results.count(Some(Status::Done)),
         missing: results.count(None),
         failed: results.count(Some(Status::Failed)),
+        notes: results.unmeasured(),
         why: results.first_failure().map(|(number, why)| (number, why.to_owned())),
     })
 }
 
 /// Says what was gathered; runs that failed are a failure.
 pub(super) fn tell(gathered: &Gathered, folder: &Path) -> Outcome {
-    let Gathered { files, done, missing, failed, why } = gathered;
+    let Gathered { files, done, missing, failed, why, notes } = gathered;
     let mut text = format!("{done} runs are done");
     if *missing > 0 {
         text += &format!(", {missing} are missing");
@@ -46,6 +48,9 @@ pub(super) fn tell(gathered: &Gathered, folder: &Path) -> Outcome {
     text += "\n";
     for file in files {
         text += &format!("  {}\n", folder.join(file).display());
+    }
+    for note in notes {
+        text += &format!("  note: {note}\n");
     }
     talk::say(&text)?;
     match why {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use landform_sim::text::nearest;
 use serde_json::Value;
 
 use super::{Outcome, Plan, PlannedRun, Status, plot, sheet, table};
@@ -63,6 +64,23 @@ impl<'p> Results<'p> {
             files.extend(["plots.png", "plots.svg"]);
         }
         Ok(files)
+    }
+
+    /// What is wrong with plots that the sweep asks for: metrics that no run measured.
+    pub fn unmeasured(&self) -> Vec<String> {
+        let known = self.metric_names();
+        let asked = self.plan.plots.iter().map(|plot| plot.metric.as_str());
+        let unknown = asked.filter(|asked| !known.is_empty() && !known.iter().any(|k| k == asked));
+        let note = |metric| match nearest(metric, known.iter().map(String::as_str)) {
+            Some(near) => format!(
+                "no run measured {metric:?}, which is to be plotted; did you mean {near:?}?"
+            ),
+            None => format!(
+                "no run measured {metric:?}, which is to be plotted; there are {}",
+                known.join(", ")
+            ),
+        };
+        unknown.map(note).collect()
     }
 
     /// Names of all metrics, in alphabetical order.

@@ -28,6 +28,7 @@ pub(super) fn sweep(arguments: &SweepArguments, registry: &Arc<Registry>) -> Out
         return talk::say(&(listing(&prepared) + &estimate(&prepared)));
     }
     let folder = place::make(arguments, &prepared.plan, share).map_err(refused)?;
+    let _claim = place::claim(&folder, share).map_err(refused)?;
     talk::tell(estimate(&prepared).trim_end());
     let todo: Vec<usize> = (0..prepared.plan.runs.len())
         .filter(|&index| share.has(index) && !place::is_done(&prepared.plan, index, &folder))

@@ -1,6 +1,6 @@
 //! The output folder of a sweep: made, or found again.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use super::share::Share;
@@ -39,6 +39,24 @@ pub(super) fn make(
             }
             Ok(folder.to_owned())
         }
+    }
+}
+
+/// Claims the folder of a sweep until the value is dropped or the process ends. Shares may work
+/// side by side; a whole sweep wants to be alone.
+///
+/// # Errors
+/// A message when another process is at work there.
+pub(super) fn claim(folder: &Path, share: Share) -> Result<Option<File>, String> {
+    // Where folders cannot be opened or locked, sweeps are not the worse for it.
+    let Ok(file) = File::open(folder) else { return Ok(None) };
+    let locked = if share.is_all() { file.try_lock() } else { file.try_lock_shared() };
+    match locked {
+        Err(TryLockError::WouldBlock) => Err(format!(
+            "another sweep is at work in {}; wait for its end or name another folder with -o",
+            folder.display()
+        )),
+        _ => Ok(Some(file)),
     }
 }
 
