@@ -191,6 +191,21 @@ fn a_finished_run_says_so_and_stays() {
     refused(&scratch, "run run.ron -o o --resume --set title=\"Other\"", &["line 2"]);
 }
 
+/// A process that is killed while it tries out the folder leaves a file there.
+#[test]
+fn a_run_that_was_killed_before_it_began_begins_again() {
+    let scratch = Scratch::new("resume_refused");
+    scratch.write("run.ron", SCENARIO.replace("1000000000", "3"));
+    for options in ["--resume", ""] {
+        let folder = scratch.path("o");
+        std::fs::create_dir(&folder).expect("a folder");
+        std::fs::write(folder.join(".landform-probe.tmp"), "").expect("a file");
+        call(&scratch, &format!("run run.ron -o o {options}")).good();
+        assert!(!folder.join(".landform-probe.tmp").exists());
+        std::fs::remove_dir_all(folder).expect("the folder can go");
+    }
+}
+
 #[test]
 fn two_processes_do_not_work_in_one_folder() {
     let scratch = Scratch::new("resume_claim");

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use landform_io::{IfExists, write_atomically};
 use serde::Serialize;
 
+/// File that shows whether a folder can be written; a process that is killed may leave it.
+const PROBE: &str = ".landform-probe.tmp";
+
 /// Makes the output folder of a run.
 ///
 /// An existing folder is refused unless it is empty or `force` is given; without a name a new
@@ -19,8 +22,7 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
     if folder.is_file() {
         return Err(format!("the output folder {shown} is a file; name another with -o"));
     }
-    let occupied = fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied && !force {
+    if !is_empty(&folder) && !force {
         return Err(format!(
             "the output folder {shown} exists and is not empty; name another with -o, or use \
              --force to replace files of the same names"
@@ -28,11 +30,17 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
     }
     fs::create_dir_all(&folder)
         .map_err(|error| format!("cannot make the output folder {shown}: {error}"))?;
-    let probe = folder.join(".landform-probe.tmp");
+    let probe = folder.join(PROBE);
     fs::write(&probe, b"")
         .and_then(|()| fs::remove_file(&probe))
         .map_err(|error| format!("cannot write into the output folder {shown}: {error}"))?;
     Ok(folder)
+}
+
+/// Whether nothing is seen in a folder, or there is none.
+pub(super) fn is_empty(folder: &Path) -> bool {
+    let mut entries = fs::read_dir(folder).into_iter().flatten();
+    entries.all(|entry| entry.is_ok_and(|entry| entry.file_name() == PROBE))
 }
 
 /// The first of `out/STEM`, `out/STEM-2`, ... that does not exist.
@@ -57,6 +65,7 @@ pub(super) fn remove_leftovers(folder: &Path) {
         let is_number =
             |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
         let is_leftover = match parts[..] {
+            _ if name == PROBE => true,
             ["tmp", number, process, _, ..] => {
                 name.starts_with('.') && is_number(number) && is_number(process)
             }

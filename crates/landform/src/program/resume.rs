@@ -7,7 +7,7 @@ use landform_sim::checkpoint::Checkpoint;
 use landform_sim::scenario::ScenarioSource;
 use serde_json::Value;
 
-use super::{checkpoint_file, talk};
+use super::{checkpoint_file, folder, talk};
 
 /// What is left to do in the folder of a run.
 pub(super) enum Rest {
@@ -36,7 +36,7 @@ pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Strin
         same_scenario(folder, source.text(), &text)?;
         return Ok(Rest::After(checkpoint));
     }
-    let begun = checkpoint_file::folder(folder).is_dir() || is_empty(folder);
+    let begun = checkpoint_file::folder(folder).is_dir() || folder::is_empty(folder);
     if !begun {
         return Err(format!(
             "there is no checkpoint in {shown} to resume from; run the scenario again without \
@@ -48,14 +48,6 @@ pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Strin
     }
     talk::tell(&format!("no checkpoint in {shown} yet: the run starts from the beginning"));
     Ok(Rest::Everything)
-}
-
-/// Whether nothing lies in the folder, or there is none.
-fn is_empty(folder: &Path) -> bool {
-    match fs::read_dir(folder) {
-        Ok(mut entries) => entries.next().is_none(),
-        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
-    }
 }
 
 /// Whether the report in the folder is that of a run that came to its end.
