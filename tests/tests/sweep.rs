@@ -182,7 +182,7 @@ fn two_sweeps_never_work_in_one_folder() {
 fn a_plot_of_what_nobody_measures_is_named() {
     let scratch = scratch();
     let plots = r#"seeds: Count(1), plots: [(metric: "avalanche_slide_m")],"#;
-    scratch.write("s.sweep.ron", &SWEEP.replace("seeds: Count(2),", plots));
+    scratch.write("s.sweep.ron", SWEEP.replace("seeds: Count(2),", plots));
     let told = call(&scratch, "sweep s.sweep.ron -o o").good();
     let note = r#"no run measured "avalanche_slide_m", which is to be plotted; did you mean "avalanche_slid_m"?"#;
     assert!(told.contains(note), "{told}");
