@@ -55,7 +55,7 @@ fn edits_that_cannot_be_made() {
         ("", &["write it as PATH=VALUE"]),
         ("seed=three", &["--set seed=three", "seed"]),
         ("domain.spacing_m=1e400", &["domain.spacing_m", "finite", "--set domain.spacing_m=1e400"]),
-        ("stages=[]", &["no stage"]),
+        ("stages=[()]", &["lacks the field \"processes\""]),
         ("title.a=5", &["title", "single value"]),
     ] {
         let scratch = scratch();

@@ -32,7 +32,8 @@ fn text_that_is_no_scenario() {
         ("(title: \"a\"", &["bad.ron:1:"]),
         ("(title: \"a)", &["bad.ron:1:"]),
         ("()", &["bad.ron:1:", "title"]),
-        ("(title: \"a\", domain: Grid(), stages: [])", &["no stage", "at least one"]),
+        ("(title: \"a\", domain: Grid())", &["bad.ron:1:", "stages"]),
+        ("(title: \"a\", domain: Grid(), stages: [(processes: [])])", &["no process"]),
         ("[1, 2, 3]", &["bad.ron:1:"]),
         ("\u{0}\u{1}\u{2}", &["bad.ron:1:1"]),
     ] {

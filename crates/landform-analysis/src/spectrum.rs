@@ -111,6 +111,29 @@ impl Spectrum {
         })
     }
 
+    /// Share of the waves above half the Nyquist frequency that are empty: those with less than
+    /// a thousandth of the amplitude that the smoothest fractional Brownian surface (H = 1, a
+    /// fall-off as 1 / frequency squared) with the same strongest wave has at their frequency.
+    ///
+    /// Such surfaces have next to none, sums of few octaves of noise many (thesis, figure 2.7).
+    /// `None` for a level surface and for lattices without such waves.
+    pub fn empty_share(&self) -> Option<f64> {
+        let moving = || self.waves().filter(|wave| wave.frequency > 0.0);
+        let strongest = moving().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))?;
+        if strongest.amplitude == 0.0 {
+            return None;
+        }
+        let half_nyquist = (self.size[0] as f64 * self.size[1] as f64).sqrt() / 4.0;
+        let [mut fine, mut empty] = [0.0; 2];
+        for wave in moving().filter(|wave| wave.frequency > half_nyquist) {
+            let falloff = (strongest.frequency / wave.frequency).powi(2);
+            let least = 1e-3 * strongest.amplitude * falloff;
+            fine += 1.0;
+            empty += f64::from(u8::from(wave.amplitude < least));
+        }
+        (fine > 0.0).then_some(empty / fine)
+    }
+
     fn wave(&self, column: usize, row: usize) -> Wave {
         let [width, height] = self.size;
         let periods = [signed(column, width), signed(row, height)];

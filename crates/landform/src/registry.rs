@@ -17,7 +17,11 @@ pub fn registry() -> Registry {
         .metric::<FieldStatistic>()
         .metric::<AgentCount>()
         .metric::<AgentStatistic>()
-        .metric::<metrics::SpectralFalloff>();
+        .metric::<metrics::SpectralFalloff>()
+        .metric::<metrics::Hypsometry>()
+        .metric::<metrics::ShoreDimension>()
+        .metric::<metrics::Depressions>()
+        .metric::<metrics::Drainage>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()

@@ -23,7 +23,8 @@ pub struct Scenario {
     /// How fields are filled, in order.
     #[serde(default)]
     pub initial: Vec<InitialEntry>,
-    /// The stages, in order. They share the state of the nodes.
+    /// The stages, in order. They share the state of the nodes. Without any, a bed is
+    /// made, measured and drawn, and that is all.
     pub stages: Vec<StageEntry>,
     /// What is measured.
     #[serde(default)]

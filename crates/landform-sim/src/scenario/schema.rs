@@ -44,7 +44,7 @@ pub fn scenario_schema(registry: &Registry) -> Value {
             "seed": {"description": "Seed of all random numbers.", "type": "integer", "minimum": 0, "default": 1},
             "domain": domain,
             "initial": {"type": "array", "items": initial_entry},
-            "stages": {"type": "array", "items": stage, "minItems": 1},
+            "stages": {"type": "array", "items": stage},
             "metrics": {"type": "array", "items": metric},
             "measure_every": counted("Iterations between two measurements."),
             "outputs": {"type": "array", "items": output},

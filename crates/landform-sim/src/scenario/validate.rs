@@ -41,9 +41,6 @@ impl Scenario {
             let expected = "an entry in `metrics`, or another moment";
             problems.push(Problem::new(format!("outputs[{index}].when"), message, expected));
         }
-        if self.stages.is_empty() {
-            problems.push(Problem::new("stages", "the scenario has no stage", "at least one"));
-        }
         if self.measure_every == 0 {
             let message = "measurements cannot follow each other by zero iterations";
             problems.push(Problem::new("measure_every", message, "at least 1"));

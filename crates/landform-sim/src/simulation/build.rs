@@ -190,9 +190,13 @@ fn plan(scenario: &Scenario, folder: &Path, limits: Limits) -> Result<Plan, Prob
     Ok(Plan { domain, fields, uses, needs })
 }
 
-/// All fields that the processes name, and the surface when there is a bed or sand.
+/// All fields that the processes name, the bed when there is no stage to name any, and the
+/// surface when there is a bed or sand.
 fn collect_fields(declarations: &[Vec<Declaration>]) -> Result<FieldTable, Problem> {
     let mut fields = FieldTable::default();
+    if declarations.is_empty() {
+        fields.insert(FieldEntry::stored::<Bed>());
+    }
     for (stage, processes) in declarations.iter().enumerate() {
         for (index, uses) in processes.iter().enumerate() {
             for (entry, _) in uses.fields() {

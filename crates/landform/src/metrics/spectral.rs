@@ -1,14 +1,19 @@
 //! How the spectrum of a field falls off.
 
 use landform_analysis::{RadialSpectrum, SpectralFit, Spectrum};
+use landform_graph::Lattice;
 use landform_sim::metric::Metric;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{check_plane, heights, refusal};
+
 /// How well the spectrum of a field falls off as a power of frequency: RMS and R2 of the thesis'
-/// fit (section 2.1.6) and the exponent beta of the radially averaged power.
+/// fit (section 2.1.6) and the waves that it rejects, the exponent beta of the radially averaged
+/// power, and how many of the waves above half the Nyquist frequency are empty (less than a
+/// thousandth of what a surface with H = 1 and the same strongest wave has there).
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectralFalloff {
@@ -30,19 +35,26 @@ impl Metric for SpectralFalloff {
         vec![self.field.clone()]
     }
 
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        check_plane(lattice)
+    }
+
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let refuse = |message: String| Problem::new("field", message, "");
-        let heights = snapshot.field(&self.field).map_err(|error| refuse(error.to_string()))?;
-        let spectrum = Spectrum::new(snapshot.lattice(), &heights)
-            .map_err(|error| refuse(error.to_string()))?;
+        let heights = heights(snapshot, &self.field)?;
+        let spectrum =
+            Spectrum::new(snapshot.lattice(), &heights).map_err(|error| refusal(&error))?;
         let mut values = Vec::new();
         // A level surface has no spectrum to fit: there is nothing to measure yet.
         if let Ok(fit) = SpectralFit::new(&spectrum) {
             values.push(("spectral_rms".to_owned(), fit.rms));
             values.push(("spectral_r2".to_owned(), fit.r_squared));
+            values.push(("spectral_rejected_percent".to_owned(), 100.0 * fit.rejected_share));
         }
         if let Ok(exponent) = RadialSpectrum::usual(&spectrum).exponent() {
             values.push(("spectral_beta".to_owned(), exponent.beta));
+        }
+        if let Some(share) = spectrum.empty_share() {
+            values.push(("spectral_empty_percent".to_owned(), 100.0 * share));
         }
         Ok(values)
     }
