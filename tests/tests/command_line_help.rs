@@ -134,7 +134,7 @@ fn help_has_examples_and_every_command_is_explained() {
     let commands = help.split("Commands:").nth(1).and_then(|rest| rest.split("\n\n").next());
     let commands = listed(commands.expect("a list of commands"));
     let expected =
-        ["run", "check", "list", "describe", "schema", "export", "view", "sweep", "collect"];
+        ["run", "check", "list", "describe", "schema", "export", "view", "analyze", "sweep"];
     for command in expected {
         assert!(commands.contains(&command), "{command} in {commands:?}");
     }

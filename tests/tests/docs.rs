@@ -102,7 +102,8 @@ mod commands {
     use std::process::{Command, Stdio};
 
     /// Commands that finish at once or can be cut; `reproduce` runs for minutes.
-    const RUN: [&str; 10] = [
+    const RUN: [&str; 11] = [
+        "analyze",
         "run",
         "check",
         "list",
@@ -203,7 +204,7 @@ mod commands {
     fn examples_of_the_help_run() {
         let scratch = Scratch::new("help");
         let mut count = 0;
-        for command in ["", "run", "export", "view", "completions"] {
+        for command in ["", "run", "export", "view", "analyze", "completions"] {
             let help = run(
                 &scratch,
                 &format!("{command} --help").trim_start().replace("run --", "help run --"),

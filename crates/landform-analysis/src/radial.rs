@@ -67,9 +67,7 @@ impl RadialSpectrum {
     /// periods per side to half the Nyquist frequency. Below, single waves decide; above, the
     /// lattice does.
     pub fn usual(spectrum: &Spectrum) -> Self {
-        let [width, height] = spectrum.size();
-        let side = (width as f64 * height as f64).sqrt();
-        Self::new(spectrum, Self::USUAL_BINS, [8.0, side / 4.0])
+        Self::new(spectrum, Self::USUAL_BINS, [8.0, spectrum.half_nyquist()])
     }
 
     /// Fits the exponent by least squares through the logarithms of the bins, each counting

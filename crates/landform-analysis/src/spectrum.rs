@@ -7,6 +7,8 @@ use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::FftPlanner;
 use thiserror::Error;
 
+use crate::grid::Grid;
+
 /// Why a height field cannot be analysed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -50,8 +52,8 @@ pub struct Wave {
     /// Whole periods across the width and the height of the lattice; negative ones run the
     /// other way.
     pub periods: [i64; 2],
-    /// Frequency in periods per side of a square of the same area. On a square lattice it is
-    /// the length of [`Wave::periods`].
+    /// Frequency in periods per side of a square of the same area in metres. On a square lattice
+    /// it is the length of [`Wave::periods`].
     pub frequency: f64,
     /// Amplitude in the unit of the heights: see [`Spectrum`].
     pub amplitude: f64,
@@ -65,7 +67,7 @@ pub struct Wave {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     size: [usize; 2],
-    spacing: f64,
+    cell_m: [f64; 2],
     amplitudes: Vec<f64>,
 }
 
@@ -81,7 +83,14 @@ impl Spectrum {
         check(lattice, heights)?;
         let size = [lattice.width(), lattice.height()];
         let amplitudes = amplitudes(heights, size);
-        Ok(Self { size, spacing: lattice.spacing(), amplitudes })
+        Ok(Self { size, cell_m: [lattice.spacing(); 2], amplitudes })
+    }
+
+    /// The same spectrum over the cells of a grid, which may be oblong, as those of rasters in
+    /// degrees are on the ground: frequencies are counted a metre, not a cell.
+    #[must_use]
+    pub fn on_cells_of(self, grid: &Grid) -> Self {
+        Self { cell_m: grid.cell_size(), ..self }
     }
 
     /// Number of columns and rows.
@@ -138,7 +147,9 @@ impl Spectrum {
         let [width, height] = self.size;
         let periods = [signed(column, width), signed(row, height)];
         let side = (width as f64 * height as f64).sqrt();
-        let [x, y] = [0, 1].map(|axis| periods[axis] as f64 * (side / self.size[axis] as f64));
+        let stretch = self.stretch();
+        let [x, y] = [0, 1]
+            .map(|axis| periods[axis] as f64 * (side / self.size[axis] as f64) * stretch[axis]);
         let amplitude = self.amplitudes[column + width * row];
         Wave { periods, frequency: (x * x + y * y).sqrt(), amplitude }
     }
@@ -146,7 +157,21 @@ impl Spectrum {
     /// Frequency 1 of [`Wave::frequency`] in periods a metre.
     pub fn base_frequency_per_m(&self) -> f64 {
         let [width, height] = self.size;
-        1.0 / ((width as f64 * height as f64).sqrt() * self.spacing)
+        1.0 / ((width as f64 * height as f64).sqrt() * (self.cell_m[0] * self.cell_m[1]).sqrt())
+    }
+
+    /// Half the Nyquist frequency of the longer side of the cells, in periods per side: see
+    /// [`Wave::frequency`].
+    pub fn half_nyquist(&self) -> f64 {
+        let [width, height] = self.size;
+        let [x, y] = self.stretch();
+        (width as f64 * height as f64).sqrt() / 4.0 * x.min(y)
+    }
+
+    /// Side of a square of a cell's area, in widths and in heights of the cell.
+    fn stretch(&self) -> [f64; 2] {
+        let [width, height] = self.cell_m;
+        [(height / width).sqrt(), (width / height).sqrt()]
     }
 
     /// The triple-log plot of the thesis (figure 2.3): natural logarithm of the amplitude at
@@ -305,6 +330,30 @@ mod tests {
         let peak = spectrum.waves().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).unwrap();
         let per_metre = peak.frequency * spectrum.base_frequency_per_m();
         assert!((per_metre - 0.125).abs() < 1e-12, "{per_metre} periods a metre");
+    }
+
+    /// Waves of 400 m to the east and of 400 m to the south on cells of 25 m by 50 m.
+    #[test]
+    fn frequencies_are_those_on_the_ground_where_cells_are_oblong() {
+        let size = [64, 48];
+        let oblong = Grid::new(size, [25.0, 50.0]).unwrap();
+        for (east, south, periods) in [(16.0, f64::INFINITY, [4, 0]), (f64::INFINITY, 8.0, [0, 6])]
+        {
+            let heights: Vec<f64> = (0..64 * 48)
+                .map(|node| (TAU * ((node % 64) as f64 / east + (node / 64) as f64 / south)).cos())
+                .collect();
+            let spectrum = Spectrum::new(&lattice(size), &heights).unwrap().on_cells_of(&oblong);
+            let peak = spectrum.waves().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)).unwrap();
+            assert_eq!(peak.periods.map(i64::abs), periods);
+            let per_metre = peak.frequency * spectrum.base_frequency_per_m();
+            assert!((per_metre * 400.0 - 1.0).abs() < 1e-12, "{per_metre} periods a metre");
+        }
+        let spectrum = Spectrum::new(&lattice(size), &vec![0.0; 64 * 48]).unwrap();
+        let highest =
+            |spectrum: &Spectrum| spectrum.half_nyquist() * spectrum.base_frequency_per_m();
+        assert_eq!(highest(&spectrum), 0.25);
+        let highest = highest(&spectrum.on_cells_of(&oblong));
+        assert!((highest * 200.0 - 1.0).abs() < 1e-12, "{highest}: four cells of 50 m a period");
     }
 
     #[test]

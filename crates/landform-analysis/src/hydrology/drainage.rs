@@ -55,19 +55,25 @@ impl Drainage {
     /// ```
     pub fn over_filled(grid: &Grid, filled: &[f64]) -> Result<Self, GridError> {
         let directions = FlowDirections::over_filled(grid, filled)?;
-        let cells = directions.contributing_cells();
-        let range = AreaRange::usual(&cells);
-        let orders = stream_orders(&directions, &cells, Self::CHANNEL_CELLS);
+        Ok(Self::along(&directions, &directions.contributing_cells(), filled))
+    }
+
+    /// Measures the drainage along `directions` with their `contributing_cells`; both were made of
+    /// the surface `filled`.
+    pub fn along(directions: &FlowDirections, contributing_cells: &[u32], filled: &[f64]) -> Self {
+        let cells = contributing_cells;
+        let range = AreaRange::usual(cells);
+        let orders = stream_orders(directions, cells, Self::CHANNEL_CELLS);
         let largest = cells.iter().copied().max().unwrap_or(0);
-        Ok(Self {
-            largest_basin_m2: f64::from(largest) * grid.cell_area(),
-            exceedance: area_exceedance(&directions, &cells, range),
-            hack: hack_exponent(&directions, &cells, range),
-            slope_area: slope_area(&directions, filled, &cells, range),
+        Self {
+            largest_basin_m2: f64::from(largest) * directions.grid().cell_area(),
+            exceedance: area_exceedance(directions, cells, range),
+            hack: hack_exponent(directions, cells, range),
+            slope_area: slope_area(directions, filled, cells, range),
             channel_cells: Self::CHANNEL_CELLS,
-            density: channel_density(&directions, &orders),
-            horton: Horton::new(&directions, &orders, &cells),
-        })
+            density: channel_density(directions, &orders),
+            horton: Horton::new(directions, &orders, cells),
+        }
     }
 }
 

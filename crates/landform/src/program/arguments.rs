@@ -20,6 +20,7 @@ const EXAMPLES: &str = "Examples:
   landform describe Dunes
   landform export out/dunes --field surface --to dunes.tif
   landform view out/dunes -o dunes.png --look perspective --bearing 120
+  landform analyze dem.tif
   landform sweep scenarios/tutorial/slab.sweep.ron -o out/slab";
 
 #[derive(Subcommand)]
@@ -56,6 +57,11 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  landform view out/dunes -o dunes.png\n  \
         landform view dem.tif -o dem.png --look perspective --colours batlow")]
     View(ViewArguments),
+    /// Measure rasters and lines: spectra, hypsometry, fractal dimensions, slopes, drainage
+    #[command(after_help = "Examples:\n  landform analyze dem.tif\n  \
+        landform analyze --json dem.tif > dem.json\n\n\
+        With --json one file gives an object, several give an array in their order.")]
+    Analyze(AnalyzeArguments),
     /// Run figures and tables of the thesis over several seeds: our numbers beside the thesis'
     #[command(after_help = "Example:\n  landform reproduce table_4_1 -o out/table")]
     Reproduce(ReproduceArguments),
@@ -233,6 +239,22 @@ pub(crate) struct ReproduceArguments {
     /// Write into an existing folder; files of the same names are replaced
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct AnalyzeArguments {
+    /// Rasters (.tif, .asc, .npy)
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Side of the cells in metres, for rasters that do not say it or say something else
+    #[arg(long, value_name = "METRES")]
+    pub spacing_m: Option<f64>,
+    /// Largest memory that a file may need; without it most of what is free
+    #[arg(long, value_name = "GIB")]
+    pub memory_limit_gib: Option<f64>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]

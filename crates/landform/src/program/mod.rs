@@ -1,5 +1,6 @@
 //! The command line.
 
+mod analyze;
 mod arguments;
 mod check;
 mod checkpoint_file;
@@ -77,6 +78,7 @@ impl Program {
             Command::Schema => schema(&registry),
             Command::Export(arguments) => export::export(&arguments),
             Command::View(arguments) => view::view(&arguments),
+            Command::Analyze(arguments) => analyze::run(&arguments),
             Command::Reproduce(arguments) => reproduce::reproduce(&arguments, &registry),
             Command::Sweep(arguments) => sweep::sweep(&arguments, &registry),
             Command::Collect { folder } => collect::collect(&folder),
