@@ -1,5 +1,6 @@
 //! Why a field cannot be generated, and the checks that tell.
 
+use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
 use landform_graph::Lattice;
@@ -58,6 +59,81 @@ pub enum SynthError {
         /// Number of heights that every row needs.
         columns: usize,
     },
+    /// A list that makes no shape.
+    #[error("{generator}: {parameter}{}{problem}", if .parameter.is_empty() { "" } else { ": " })]
+    Unusable {
+        /// Name of the generator.
+        generator: &'static str,
+        /// Name of the parameter; empty for the whole.
+        parameter: &'static str,
+        /// What is wrong and what it takes.
+        problem: String,
+    },
+    /// A tree with too many parts.
+    #[error("{generator}: more than {most} {what}; split it into several initial conditions")]
+    TooLarge {
+        /// Name of the generator.
+        generator: &'static str,
+        /// The parts.
+        what: &'static str,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A problem of a part.
+    #[error("{path}: {problem}")]
+    Within {
+        /// Path of the part, `of.ground` say.
+        path: String,
+        /// What is wrong with it.
+        problem: Box<SynthError>,
+    },
+}
+
+impl SynthError {
+    /// The problem as one of the part at `path`.
+    pub(crate) fn within(self, path: &str) -> Self {
+        match self {
+            Self::Within { path: inner, problem } => {
+                Self::Within { path: format!("{path}.{inner}"), problem }
+            }
+            problem => Self::Within { path: path.to_owned(), problem: Box::new(problem) },
+        }
+    }
+
+    /// Path of the parameter that is refused; empty if it is none.
+    pub(crate) fn parameter(&self) -> String {
+        match self {
+            Self::OutOfRange { parameter, .. } | Self::Unusable { parameter, .. } => {
+                (*parameter).to_owned()
+            }
+            Self::Within { path, problem } => match problem.parameter() {
+                inner if inner.is_empty() => path.clone(),
+                inner => format!("{path}.{inner}"),
+            },
+            _ => String::new(),
+        }
+    }
+}
+
+/// Passes a list of points with increasing first numbers, `least` points or more.
+pub(crate) fn check_steps(
+    generator: &'static str,
+    parameter: &'static str,
+    points: &[[f64; 2]],
+    least: usize,
+) -> Result<(), SynthError> {
+    let increases =
+        |pair: &[[f64; 2]]| pair[0][0].partial_cmp(&pair[1][0]).is_some_and(Ordering::is_lt);
+    let problem = match points.windows(2).find(|pair| !increases(pair)) {
+        Some(pair) => {
+            format!("{} follows {}; the first numbers must increase", pair[1][0], pair[0][0])
+        }
+        None if points.len() < least => {
+            format!("{} points; there must be at least {least}", points.len())
+        }
+        None => return Ok(()),
+    };
+    Err(SynthError::Unusable { generator, parameter, problem })
 }
 
 /// The checks of one generator's parameters.
@@ -96,6 +172,11 @@ impl Checks {
         least: f64,
     ) -> Result<(), SynthError> {
         self.range(parameter, value, least..=LARGEST_LENGTH_M)
+    }
+
+    /// Refuses places at absurd distances.
+    pub fn place(&self, parameter: &'static str, place: [f64; 2]) -> Result<(), SynthError> {
+        place.into_iter().try_for_each(|value| self.elevation(parameter, value))
     }
 
     /// Refuses volumes.

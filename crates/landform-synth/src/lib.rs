@@ -30,6 +30,7 @@ mod ridge;
 mod scenario;
 mod sinusoid;
 mod smooth;
+mod tree;
 mod uniform;
 
 pub use error::SynthError;
@@ -44,6 +45,10 @@ pub use ridge::{Ridge, RidgeCourse};
 pub use scenario::register;
 pub use sinusoid::Sinusoid;
 pub use smooth::SmoothNoise;
+pub use tree::{
+    Bell, Bounds, ConstructionTree, Curve, Deform, Disc, Node, Onto, Place, Plane,
+    SelectiveScaling, Terraces, Terrain, VerticalMap, Warped, Weigh,
+};
 pub use uniform::Uniform;
 
 use landform_graph::Lattice;

@@ -18,3 +18,10 @@ pub(crate) fn offset_from(lattice: &Lattice, place: [f64; 2], node: usize) -> [f
         }
     })
 }
+
+/// The positions in metres east and north of the south-western node of a row of nodes.
+pub(crate) fn place_row(lattice: &Lattice, row: usize, positions: &mut Vec<[f64; 2]>) {
+    let north = (lattice.height() - 1 - row) as f64 * lattice.spacing();
+    positions.clear();
+    positions.extend((0..lattice.width()).map(|column| [column as f64 * lattice.spacing(), north]));
+}

@@ -5,8 +5,8 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, Faulting, FractalNoise, GaussianHill, Generator, MidpointDisplacement, Ramp, Ridge,
-    Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform, WhiteNoise,
+    Cone, ConstructionTree, Faulting, FractalNoise, GaussianHill, Generator, MidpointDisplacement,
+    Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform, WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
@@ -39,14 +39,11 @@ scenario_names!(
     Sinusoid,
     Ridge,
     Cone,
-    GaussianHill
+    GaussianHill,
+    ConstructionTree
 );
 
 /// A refusal by a generator, at the parameter it is about.
 fn refusal(error: SynthError) -> Problem {
-    let parameter = match &error {
-        SynthError::OutOfRange { parameter, .. } => *parameter,
-        _ => "",
-    };
-    Problem::new(parameter, error.to_string(), "")
+    Problem::new(error.parameter(), error.to_string(), "")
 }

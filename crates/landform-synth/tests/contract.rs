@@ -20,6 +20,7 @@ fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json
             Box::new(serde_json::from_value::<MidpointDisplacement>(parameters)?)
         }
         "Faulting" => Box::new(serde_json::from_value::<Faulting>(parameters)?),
+        "ConstructionTree" => Box::new(serde_json::from_value::<ConstructionTree>(parameters)?),
         "SpectralFbm" => Box::new(serde_json::from_value::<SpectralFbm>(parameters)?),
         other => panic!("no generator {other}"),
     })
@@ -39,6 +40,7 @@ fn generators() -> Vec<(&'static str, schemars::Schema)> {
         ("FractalNoise", schemars::schema_for!(FractalNoise)),
         ("MidpointDisplacement", schemars::schema_for!(MidpointDisplacement)),
         ("Faulting", schemars::schema_for!(Faulting)),
+        ("ConstructionTree", schemars::schema_for!(ConstructionTree)),
         ("SpectralFbm", schemars::schema_for!(SpectralFbm)),
     ]
 }
@@ -121,7 +123,8 @@ fn only_random_fields_depend_on_the_seed() {
     for (name, _) in generators() {
         let generator = parse(name, json!({})).unwrap();
         let [first, second] = [1, 2].map(|seed| generator.generate(&lattice, seed).unwrap());
-        let even = ["Uniform", "Ramp", "Sinusoid", "Cone", "GaussianHill", "Ridge"];
+        let even =
+            ["Uniform", "Ramp", "Sinusoid", "Cone", "GaussianHill", "Ridge", "ConstructionTree"];
         assert_eq!(first == second, even.contains(&name), "{name}");
     }
 }
@@ -130,8 +133,9 @@ fn only_random_fields_depend_on_the_seed() {
 /// and of the right length, or refused for its lattice and not for its range.
 #[test]
 fn accepted_parameters_give_finite_fields() {
-    let surfaces = ["SpectralFbm", "FractalNoise", "MidpointDisplacement", "Faulting"];
-    let unclosed = ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting"];
+    let surfaces =
+        ["SpectralFbm", "FractalNoise", "MidpointDisplacement", "Faulting", "ConstructionTree"];
+    let unclosed = ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting", "ConstructionTree"];
     let mut fields = 0;
     for (name, schema) in generators() {
         for Number { name: parameter, limits, .. } in numbers(&schema) {

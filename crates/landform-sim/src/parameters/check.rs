@@ -7,69 +7,82 @@ use super::{Parameters, Problem};
 
 /// Finds values outside the ranges of their definition, and numbers that are not finite.
 pub(crate) fn check<P: Parameters>(parameters: &P) -> Vec<Problem> {
-    let mut problems = Vec::new();
     let value = serde_json::to_value(parameters).unwrap_or_default();
-    check_value(&schema_of::<P>(), &value, String::new(), &mut problems);
-    problems
+    let schema = schema_of::<P>();
+    let mut search = Search { definitions: &schema["$defs"], problems: Vec::new() };
+    search.value(&schema, &value, String::new());
+    search.problems
 }
 
-fn check_value(schema: &Value, value: &Value, path: String, problems: &mut Vec<Problem>) {
-    match value {
-        // JSON has no notation for infinities and NaN: serde_json turns them into null.
-        Value::Null if allows(schema, "number") && !allows(schema, "null") => {
-            problems.push(Problem::new(path, "the number is not finite", "a finite number"));
-        }
-        Value::Number(number) => {
-            let number = number.as_f64().unwrap_or(f64::NAN);
-            if !in_range(schema, number) {
-                let message = format!("{number} is out of range");
-                problems.push(Problem::new(path, message, range(schema)));
+struct Search<'a> {
+    /// Definitions of the types that may hold themselves, which stand for them by name.
+    definitions: &'a Value,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Search<'a> {
+    fn value(&mut self, schema: &'a Value, value: &Value, path: String) {
+        let schema = self.defined(schema);
+        match value {
+            // JSON has no notation for infinities and NaN: serde_json turns them into null.
+            Value::Null if allows(schema, "number") && !allows(schema, "null") => {
+                let message = "the number is not finite";
+                self.problems.push(Problem::new(path, message, "a finite number"));
             }
-        }
-        Value::Array(items) => {
-            let least = schema["minItems"].as_u64().unwrap_or(0) as usize;
-            if items.len() < least {
-                let message = format!("the list has {} entries", items.len());
-                problems.push(Problem::new(&path, message, format!("at least {least}")));
+            Value::Number(number) => {
+                let number = number.as_f64().unwrap_or(f64::NAN);
+                if !in_range(schema, number) {
+                    let message = format!("{number} is out of range");
+                    self.problems.push(Problem::new(path, message, range(schema)));
+                }
             }
-            for (index, item) in items.iter().enumerate() {
-                let inner = schema.get("items").or(schema["prefixItems"].get(index));
-                let path = format!("{path}[{index}]");
-                check_value(inner.unwrap_or(&Value::Null), item, path, problems);
+            Value::Array(items) => {
+                let least = schema["minItems"].as_u64().unwrap_or(0) as usize;
+                if items.len() < least {
+                    let message = format!("the list has {} entries", items.len());
+                    self.problems.push(Problem::new(&path, message, format!("at least {least}")));
+                }
+                for (index, item) in items.iter().enumerate() {
+                    let inner = schema.get("items").or(schema["prefixItems"].get(index));
+                    let path = format!("{path}[{index}]");
+                    self.value(inner.unwrap_or(&Value::Null), item, path);
+                }
             }
+            Value::Object(fields) => self.object(schema, fields, path),
+            _ => {}
         }
-        Value::Object(fields) => check_object(schema, fields, path, problems),
-        _ => {}
     }
-}
 
-fn check_object(
-    schema: &Value,
-    fields: &serde_json::Map<String, Value>,
-    path: String,
-    problems: &mut Vec<Problem>,
-) {
-    if schema.get("properties").is_none() {
-        // An enum: the path of `look: Relief(scale: 2.0)` is `look.scale`, as the file has it.
-        for alternative in alternatives(schema) {
-            match variant(alternative) {
-                Some((name, content)) => {
-                    if let Some(value) = fields.get(name) {
-                        return check_value(content, value, path, problems);
+    fn object(&mut self, schema: &'a Value, fields: &serde_json::Map<String, Value>, path: String) {
+        if schema.get("properties").is_none() {
+            // An enum: the path of `look: Relief(scale: 2.0)` is `look.scale`, as the file has it.
+            for alternative in alternatives(schema) {
+                let alternative = self.defined(alternative);
+                match variant(alternative) {
+                    Some((name, content)) => {
+                        if let Some(value) = fields.get(name) {
+                            return self.value(content, value, path);
+                        }
                     }
+                    None if allows(alternative, "object") => {
+                        return self.object(alternative, fields, path);
+                    }
+                    None => {}
                 }
-                None if allows(alternative, "object") => {
-                    return check_object(alternative, fields, path, problems);
-                }
-                None => {}
             }
+            return;
         }
-        return;
+        for (name, field) in fields {
+            let dot = if path.is_empty() { "" } else { "." };
+            let path = format!("{path}{dot}{name}");
+            self.value(&schema["properties"][name], field, path);
+        }
     }
-    for (name, field) in fields {
-        let dot = if path.is_empty() { "" } else { "." };
-        let path = format!("{path}{dot}{name}");
-        check_value(&schema["properties"][name], field, path, problems);
+
+    /// The schema that a reference stands for; any other is itself.
+    fn defined(&self, schema: &'a Value) -> &'a Value {
+        let name = schema["$ref"].as_str().and_then(|name| name.strip_prefix("#/$defs/"));
+        name.and_then(|name| self.definitions.get(name)).unwrap_or(schema)
     }
 }
 
@@ -113,8 +126,35 @@ mod tests {
         }
     }
 
-    fn paths(value: &Outer) -> Vec<String> {
+    #[derive(Clone, Serialize, Deserialize, JsonSchema)]
+    enum Tree {
+        Leaf(Inner),
+        Branch(Vec<Tree>),
+        Stem { next: Box<Tree> },
+    }
+
+    #[derive(Clone, Serialize, Deserialize, JsonSchema)]
+    struct Forest {
+        tree: Tree,
+    }
+
+    impl Default for Forest {
+        fn default() -> Self {
+            Self { tree: Tree::Branch(vec![]) }
+        }
+    }
+
+    fn paths<P: Parameters>(value: &P) -> Vec<String> {
         check(value).into_iter().map(|problem| problem.parameter).collect()
+    }
+
+    #[test]
+    fn ranges_are_checked_in_types_that_hold_themselves() {
+        let leaf = |size_m| Tree::Leaf(Inner { size_m, limit: None });
+        let stem = |tree| Tree::Stem { next: Box::new(tree) };
+        let tree = stem(Tree::Branch(vec![leaf(2.0), stem(leaf(0.5)), leaf(f64::NAN)]));
+        let found = paths(&Forest { tree });
+        assert_eq!(found, ["tree.next[1].next.size_m", "tree.next[2].size_m"]);
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! The noises that octaves are made of, and their places on a lattice.
 
-use landform_graph::Lattice;
+use std::f64::consts::SQRT_2;
+
 use landform_sim::random::RandomStream;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::cells::{CellNoise, Cells};
 use super::cellular::{CellularFeature, CellularNoise};
+use super::frame::Frame;
 use super::gradient::{Directions, GradientNoise, SimplexNoise};
 
 /// The noise of a single octave, between -1 and 1.
@@ -25,10 +27,27 @@ pub enum Basis {
     CellularDifference,
 }
 
-/// One octave: noise of one wavelength, at its place on the lattice.
+impl Basis {
+    /// Steepest slope of the noise in cells of unit size: the largest value that the slope takes
+    /// at any place with any random numbers. Distances have the slope 1.
+    fn steepest(self) -> f64 {
+        match self {
+            // In the middle of a square, and in the middle of the base of a triangle.
+            Self::Gradient => 2.926_175,
+            Self::Simplex => 58.0 / 11.0,
+            Self::CellularNearest => SQRT_2,
+            Self::CellularSecond => 2.0 / 2.5_f64.sqrt(),
+            Self::CellularDifference => 4.0 / 2.5_f64.sqrt(),
+        }
+    }
+}
+
+/// One octave: noise of one wavelength, at its place on the ground.
 #[derive(Debug)]
-pub(super) struct Octave<'a> {
-    noise: Noise<'a>,
+pub(super) struct Octave {
+    noise: Noise,
+    /// Bound of the slope of the noise, a metre.
+    pub steepest: f64,
     /// Cells a metre along either axis.
     scale: [f64; 2],
     /// Sine and cosine of the angle by which the octave is turned.
@@ -40,9 +59,9 @@ pub(super) struct Octave<'a> {
 }
 
 #[derive(Debug)]
-enum Noise<'a> {
-    Gradient(GradientNoise<'a>),
-    Simplex(SimplexNoise<'a>),
+enum Noise {
+    Gradient(GradientNoise),
+    Simplex(SimplexNoise),
     Cellular(CellularNoise),
 }
 
@@ -55,31 +74,26 @@ pub(super) struct Placement {
     pub amplitude: f64,
 }
 
-impl<'a> Octave<'a> {
+impl Octave {
     /// An octave of `basis`. On periodic axes the wavelength is rounded so that a whole number
     /// of cells fits, and the octave is not turned.
-    pub fn new(
-        basis: Basis,
-        lattice: &Lattice,
-        stream: &RandomStream,
-        placement: Placement,
-        directions: &'a Directions,
-    ) -> Self {
-        let turned = !(lattice.is_periodic(0) || lattice.is_periodic(1));
+    pub fn new(basis: Basis, frame: &Frame, stream: &RandomStream, placement: Placement) -> Self {
+        let turned = frame.period.iter().all(Option::is_none);
         let turn_deg = if turned { placement.turn_deg } else { 0.0 };
         let mut scale = [1.0 / placement.wavelength; 2];
         let mut period = [0; 2];
-        for axis in (0..2).filter(|&axis| lattice.is_periodic(axis)) {
-            let extent = lattice.size()[axis] as f64 * lattice.spacing();
+        for axis in 0..2 {
+            let Some(extent) = frame.period[axis] else { continue };
             // Rows of triangles repeat in pairs only.
             let step = if axis == 1 && basis == Basis::Simplex { 2.0 } else { 1.0 };
             let cells = step * (extent / (placement.wavelength * step)).round().max(1.0);
             (scale[axis], period[axis]) = (cells / extent, cells as i64);
         }
         let (cells, shift) = Cells::new(stream, placement.number, period);
-        let noise = Noise::new(basis, cells, directions);
+        let noise = Noise::new(basis, cells);
         let turn = turn_deg.to_radians().sin_cos().into();
-        Self { noise, scale, turn, shift, amplitude: placement.amplitude }
+        let steepest = basis.steepest() * scale[0].max(scale[1]);
+        Self { noise, steepest, scale, turn, shift, amplitude: placement.amplitude }
     }
 
     /// The noise at `positions` in metres, moved by `translation` cells. `points` is scratch.
@@ -104,8 +118,9 @@ impl<'a> Octave<'a> {
     }
 }
 
-impl<'a> Noise<'a> {
-    fn new(basis: Basis, cells: Cells, directions: &'a Directions) -> Self {
+impl Noise {
+    fn new(basis: Basis, cells: Cells) -> Self {
+        let directions = Directions::shared();
         let cellular = |feature| Self::Cellular(CellularNoise { cells, feature });
         match basis {
             Basis::Gradient => Self::Gradient(GradientNoise { cells, directions }),

@@ -2,6 +2,7 @@
 //! Gustavson 2005).
 
 use std::f64::consts::{SQRT_2, TAU};
+use std::sync::LazyLock;
 
 use super::cells::{CellNoise, Cells, wrapped};
 
@@ -9,12 +10,17 @@ use super::cells::{CellNoise, Cells, wrapped};
 #[derive(Debug)]
 pub(super) struct Directions([[f64; 2]; 256]);
 
+static SHARED: LazyLock<Directions> = LazyLock::new(|| {
+    Directions(std::array::from_fn(|number| {
+        let (north, east) = (TAU * number as f64 / 256.0).sin_cos();
+        [east, north]
+    }))
+});
+
 impl Directions {
-    pub fn new() -> Self {
-        Self(std::array::from_fn(|number| {
-            let (north, east) = (TAU * number as f64 / 256.0).sin_cos();
-            [east, north]
-        }))
+    /// The one table of them.
+    pub fn shared() -> &'static Self {
+        &SHARED
     }
 
     #[inline]
@@ -35,12 +41,12 @@ const CORNERS: [[i64; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
 /// Perlin's gradient noise: a plane through 0 at every corner of a square grid, blended with
 /// the quintic that has no first and second derivative at its ends.
 #[derive(Debug)]
-pub(super) struct GradientNoise<'a> {
+pub(super) struct GradientNoise {
     pub cells: Cells,
-    pub directions: &'a Directions,
+    pub directions: &'static Directions,
 }
 
-impl CellNoise for GradientNoise<'_> {
+impl CellNoise for GradientNoise {
     type Cell = [[f64; 2]; 4];
 
     fn cell(&self, column: i64, row: i64) -> Self::Cell {
@@ -65,9 +71,9 @@ impl CellNoise for GradientNoise<'_> {
 /// Simplex noise on triangles with a base and a height of one wavelength, which repeat along
 /// straight axes (Gustavson and McEwan 2022): rows of corners lie half a base apart.
 #[derive(Debug)]
-pub(super) struct SimplexNoise<'a> {
+pub(super) struct SimplexNoise {
     pub cells: Cells,
-    pub directions: &'a Directions,
+    pub directions: &'static Directions,
 }
 
 /// Square of the distance at which a corner's share ends: the opposite side of its triangles
@@ -78,7 +84,7 @@ const REACH_SQUARED: f64 = 0.8;
 /// gradients that point there.
 const SIMPLEX_SCALE: f64 = 1.0 / (0.55 * 0.55 * 0.55 * 0.55);
 
-impl CellNoise for SimplexNoise<'_> {
+impl CellNoise for SimplexNoise {
     type Cell = [[f64; 2]; 4];
 
     #[inline]

@@ -4,13 +4,15 @@ mod basis;
 mod cascade;
 mod cells;
 mod cellular;
+mod frame;
 mod gradient;
+mod slope;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod warp;
 
 use landform_graph::Lattice;
-use landform_sim::random::RandomStream;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,14 +21,13 @@ pub use basis::Basis;
 pub use cascade::{Cascade, OctaveShape};
 pub use warp::Warp;
 
-use crate::error::Checks;
-use crate::{Generator, SynthError};
-use basis::{Octave, Placement};
-use gradient::Directions;
-use warp::WarpField;
+pub(crate) use frame::Frame;
+pub(crate) use surface::{NoiseSurface, Scratch};
+pub(crate) use warp::WarpField;
 
-/// How many cells apart the two surfaces of crossed ridges are.
-const CROSSING: [f64; 2] = [37.0, 17.0];
+use crate::error::Checks;
+use crate::place::place_row;
+use crate::{Generator, SynthError};
 
 /// Octaves of noise: fractional Brownian motion by noise-summing (thesis, section 2.1.5, figure
 /// 2.7), ridged noise, and the multifractals of Musgrave (Ebert et al., Texturing and Modeling).
@@ -95,21 +96,16 @@ impl Default for FractalNoise {
 
 impl Generator for FractalNoise {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
-        self.check(lattice)?;
-        let directions = Directions::new();
-        let octaves = self.octaves(lattice, seed, &directions);
-        let warp = self.warp.map(|warp| WarpField::new(warp, lattice, seed, &directions));
+        Checks("FractalNoise").plane(lattice)?;
+        let surface = NoiseSurface::new(*self, &Frame::of(lattice), seed)?;
         let width = lattice.width();
         let mut heights = vec![0.0; lattice.node_count()];
         let rows = heights.par_chunks_mut(width).enumerate();
         rows.for_each_init(
-            || Scratch::new(width),
-            |scratch, (row, heights)| {
-                scratch.place(lattice, row);
-                if let Some(warp) = &warp {
-                    warp.bend(scratch);
-                }
-                self.row(&octaves, scratch, heights);
+            || (Scratch::new(width), Vec::with_capacity(width)),
+            |(scratch, positions), (row, heights)| {
+                place_row(lattice, row, positions);
+                surface.heights(positions, scratch, heights);
             },
         );
         Ok(heights)
@@ -117,12 +113,11 @@ impl Generator for FractalNoise {
 }
 
 impl FractalNoise {
-    fn check(&self, lattice: &Lattice) -> Result<(), SynthError> {
+    fn check(&self, frame: &Frame) -> Result<(), SynthError> {
         let checks = Checks("FractalNoise");
-        checks.plane(lattice)?;
         checks.elevation("mean_m", self.mean_m)?;
         checks.length("amplitude_m", self.amplitude_m, 0.0)?;
-        checks.length("wavelength_m", self.wavelength_m, lattice.spacing())?;
+        checks.length("wavelength_m", self.wavelength_m, frame.spacing)?;
         checks.range("octaves", f64::from(self.octaves), 1.0..=32.0)?;
         checks.range("lacunarity", self.lacunarity, 1.01..=8.0)?;
         checks.range("hurst", self.hurst, 0.0..=2.0)?;
@@ -130,72 +125,7 @@ impl FractalNoise {
         if let Some((name, value)) = self.cascade.parameter() {
             checks.range(name, value, 0.0..=10.0)?;
         }
-        self.warp.map_or(Ok(()), |warp| warp.check(&checks, lattice))
-    }
-
-    /// The octaves that the lattice can show.
-    fn octaves<'a>(
-        &self,
-        lattice: &Lattice,
-        seed: u64,
-        directions: &'a Directions,
-    ) -> Vec<Octave<'a>> {
-        let stream = RandomStream::new(seed, "fractal noise");
-        (0..self.octaves)
-            .map(|number| Placement {
-                number: u64::from(number),
-                wavelength: self.wavelength_m / self.lacunarity.powi(number as i32),
-                turn_deg: self.rotation_deg * f64::from(number),
-                amplitude: self.lacunarity.powf(-self.hurst * f64::from(number)),
-            })
-            .take_while(|placement| placement.wavelength >= lattice.spacing())
-            .map(|placement| Octave::new(self.basis, lattice, &stream, placement, directions))
-            .collect()
-    }
-
-    /// Heights of a row whose positions are in `scratch`.
-    fn row(&self, octaves: &[Octave<'_>], scratch: &mut Scratch, heights: &mut [f64]) {
-        let Scratch { positions, points, noise, moved, weights } = scratch;
-        let [height, weight] = self.cascade.start();
-        heights.fill(height);
-        weights.fill(weight);
-        for octave in octaves {
-            octave.row(positions, [0.0; 2], points, noise);
-            if self.shape == OctaveShape::CrossedRidges {
-                octave.row(positions, CROSSING, points, moved);
-            }
-            self.shape.apply(noise, moved);
-            self.cascade.add(octave.amplitude, noise, heights, weights);
-        }
-        for height in heights {
-            *height = self.mean_m + self.amplitude_m * *height;
-        }
-    }
-}
-
-/// Memory for the work on a row of nodes.
-struct Scratch {
-    /// Metres east and north of the south-western node.
-    positions: Vec<[f64; 2]>,
-    /// The same in cells of an octave.
-    points: Vec<[f64; 2]>,
-    noise: Vec<f64>,
-    moved: Vec<f64>,
-    weights: Vec<f64>,
-}
-
-impl Scratch {
-    fn new(width: usize) -> Self {
-        let [noise, moved, weights] = [(); 3].map(|()| vec![0.0; width]);
-        let [positions, points] = [(); 2].map(|()| vec![[0.0; 2]; width]);
-        Self { positions, points, noise, moved, weights }
-    }
-
-    /// Takes the positions of a row of nodes.
-    fn place(&mut self, lattice: &Lattice, row: usize) {
-        let north = (lattice.height() - 1 - row) as f64 * lattice.spacing();
-        for (column, position) in self.positions.iter_mut().enumerate() {
-            *position = [column as f64 * lattice.spacing(), north];
-        }
+        let names = ["warp.amplitude_m", "warp.wavelength_m", "warp.octaves"];
+        self.warp.map_or(Ok(()), |warp| warp.check(&checks, names, frame))
     }
 }

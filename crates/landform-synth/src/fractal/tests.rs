@@ -31,7 +31,7 @@ fn rows_agree_with_points(noise: &impl CellNoise) {
 
 #[test]
 fn rows_agree_with_single_points() {
-    let directions = &Directions::new();
+    let directions = Directions::shared();
     rows_agree_with_points(&GradientNoise { cells: cells(), directions });
     rows_agree_with_points(&SimplexNoise { cells: cells(), directions });
     use CellularFeature::{Difference, Nearest, Second};
@@ -43,7 +43,7 @@ fn rows_agree_with_single_points() {
 /// Noise is 0 at the corners of its cells, where it has the slope of the corner's gradient.
 #[test]
 fn gradient_noises_have_the_gradients_of_their_corners() {
-    let directions = &Directions::new();
+    let directions = Directions::shared();
     let square = GradientNoise { cells: cells(), directions };
     let triangle = SimplexNoise { cells: cells(), directions };
     let slope = |noise: &dyn Fn([f64; 2]) -> f64, [x, y]: [f64; 2]| {
@@ -68,7 +68,7 @@ fn gradient_noises_have_the_gradients_of_their_corners() {
 /// No step where a point goes from one cell to the next.
 #[test]
 fn noises_are_continuous() {
-    let directions = &Directions::new();
+    let directions = Directions::shared();
     let square = GradientNoise { cells: cells(), directions };
     let triangle = SimplexNoise { cells: cells(), directions };
     let cellular = CellularNoise { cells: cells(), feature: CellularFeature::Second };
@@ -119,7 +119,7 @@ fn cellular_noise_is_the_distance_to_the_nearest_points() {
 #[test]
 fn periodic_noise_repeats() {
     let stream = RandomStream::new(3, "test");
-    let directions = &Directions::new();
+    let directions = Directions::shared();
     let cells = Cells::new(&stream, 0, [5, 4]).0;
     let square = GradientNoise { cells, directions };
     let triangle = SimplexNoise { cells, directions };

@@ -1,13 +1,12 @@
 //! Domain distortion: a surface on bent ground.
 
-use landform_graph::Lattice;
 use landform_sim::random::RandomStream;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Scratch;
 use super::basis::{Basis, Octave, Placement};
-use super::gradient::Directions;
+use super::frame::Frame;
 use crate::SynthError;
 use crate::error::Checks;
 
@@ -38,22 +37,28 @@ impl Default for Warp {
 }
 
 impl Warp {
-    pub(super) fn check(&self, checks: &Checks, lattice: &Lattice) -> Result<(), SynthError> {
-        let spacing = lattice.spacing();
-        checks.range("warp.amplitude_m", self.amplitude_m, 0.0..=1e6 * spacing)?;
-        checks.length("warp.wavelength_m", self.wavelength_m, spacing)?;
-        checks.range("warp.octaves", f64::from(self.octaves), 1.0..=32.0)
+    /// `names` are those of amplitude, wavelength and octaves in messages.
+    pub(crate) fn check(
+        &self,
+        checks: &Checks,
+        names: [&'static str; 3],
+        frame: &Frame,
+    ) -> Result<(), SynthError> {
+        checks.range(names[0], self.amplitude_m, 0.0..=1e6 * frame.spacing)?;
+        checks.length(names[1], self.wavelength_m, frame.spacing)?;
+        checks.range(names[2], f64::from(self.octaves), 1.0..=32.0)
     }
 }
 
 /// The shifts of a warp, as octaves of noise.
-pub(super) struct WarpField<'a> {
+#[derive(Debug)]
+pub(crate) struct WarpField {
     /// Those to the east, and those to the north.
-    octaves: [Vec<Octave<'a>>; 2],
+    octaves: [Vec<Octave>; 2],
 }
 
-impl<'a> WarpField<'a> {
-    pub fn new(warp: Warp, lattice: &Lattice, seed: u64, directions: &'a Directions) -> Self {
+impl WarpField {
+    pub fn new(warp: Warp, frame: &Frame, seed: u64) -> Self {
         let octaves = ["warp east", "warp north"].map(|name| {
             let stream = RandomStream::new(seed, name);
             (0..warp.octaves)
@@ -64,16 +69,16 @@ impl<'a> WarpField<'a> {
                     turn_deg: 0.0,
                     amplitude: warp.amplitude_m * share,
                 })
-                .take_while(|placement| placement.wavelength >= lattice.spacing())
-                .map(|place| Octave::new(Basis::Gradient, lattice, &stream, place, directions))
+                .take_while(|placement| placement.wavelength >= frame.spacing)
+                .map(|place| Octave::new(Basis::Gradient, frame, &stream, place))
                 .collect()
         });
         Self { octaves }
     }
 
-    /// Moves the positions of a row.
-    pub fn bend(&self, scratch: &mut Scratch) {
-        let Scratch { positions, points, noise, moved, weights } = scratch;
+    /// Moves `positions`; `scratch` has room for as many.
+    pub fn bend(&self, positions: &mut [[f64; 2]], scratch: &mut Scratch) {
+        let Scratch { points, noise, moved, weights } = scratch;
         for (octaves, shifts) in self.octaves.iter().zip([&mut *moved, &mut *weights]) {
             shifts.fill(0.0);
             for octave in octaves {
@@ -87,5 +92,20 @@ impl<'a> WarpField<'a> {
         for (position, (east, north)) in positions.iter_mut().zip(moved.iter().zip(&*weights)) {
             *position = [position[0] + east, position[1] + north];
         }
+    }
+
+    /// Largest shift along an axis.
+    pub fn farthest(&self) -> f64 {
+        let farthest = |octaves: &Vec<Octave>| octaves.iter().map(|octave| octave.amplitude).sum();
+        self.octaves.iter().map(farthest).fold(0.0, f64::max)
+    }
+
+    /// Bound of the distance by which two shifts differ, over the distance of their places.
+    pub fn steepest(&self) -> f64 {
+        let steepest = |octaves: &Vec<Octave>| -> f64 {
+            octaves.iter().map(|octave| octave.amplitude * octave.steepest).sum()
+        };
+        let [east, north] = self.octaves.each_ref().map(steepest);
+        east.hypot(north)
     }
 }

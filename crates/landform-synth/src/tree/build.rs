@@ -1,0 +1,129 @@
+//! From the tree as written to the tree made ready.
+
+use landform_sim::random::RandomStream;
+
+use super::blend::BlendSurface;
+use super::curve::CurveSurface;
+use super::disc::DiscSurface;
+use super::onto::{Meeting, OntoSurface};
+use super::place::PlaceSurface;
+use super::plane::PlaneSurface;
+use super::surface::Surface;
+use super::vertical::DeformSurface;
+use super::warp::WarpSurface;
+use super::weigh::WeighSurface;
+use super::{NAME, Node, Onto};
+use crate::SynthError;
+use crate::fractal::{Frame, NoiseSurface};
+
+/// Most levels of a tree.
+const DEEPEST: usize = 50;
+/// Most nodes of a tree.
+const MOST_NODES: usize = 10_000;
+/// Most points of all curves of a tree.
+const MOST_POINTS: usize = 100_000;
+
+/// Checks nodes and makes them ready.
+pub(super) struct Builder {
+    frame: Frame,
+    seed: u64,
+    nodes: usize,
+    points: usize,
+}
+
+impl Builder {
+    /// A builder for noise with this seed.
+    pub fn new(frame: Frame, seed: u64) -> Self {
+        Self { frame, seed, nodes: 0, points: 0 }
+    }
+
+    /// Makes the node at `path` ready, `level` levels below the tree itself.
+    pub fn build(
+        &mut self,
+        node: &Node,
+        path: &str,
+        level: usize,
+    ) -> Result<Box<dyn Surface>, SynthError> {
+        self.count(node, level).map_err(|error| error.within(path))?;
+        // Every node has random numbers of its own, whatever its siblings.
+        let seed = {
+            let [low, high, ..] = RandomStream::new(self.seed, path).block(0, 0, 0);
+            u64::from(low) | u64::from(high) << 32
+        };
+        let mut below =
+            |child: &Node, name: &str| self.build(child, &format!("{path}{name}"), level + 1);
+        let made: Result<Box<dyn Surface>, SynthError> = match node {
+            Node::Disc(disc) => boxed(DiscSurface::new(disc, &self.frame, seed)),
+            Node::Curve(curve) => boxed(CurveSurface::new(curve)),
+            Node::Bell(bell) => boxed(bell.check().map(|()| *bell)),
+            Node::Plane(plane) => boxed(PlaneSurface::new(plane)),
+            Node::Noise(noise) => boxed(NoiseSurface::new(*noise, &self.frame, seed)),
+            Node::Blend(children) => {
+                let children = children.iter().enumerate();
+                let children = children.map(|(number, child)| below(child, &format!("[{number}]")));
+                return Ok(Box::new(BlendSurface {
+                    children: children.collect::<Result<_, _>>()?,
+                }));
+            }
+            Node::Replace(onto) => return self.onto(Meeting::Replace, onto, path, level),
+            Node::Add(onto) => return self.onto(Meeting::Add, onto, path, level),
+            Node::Carve(onto) => return self.onto(Meeting::Carve, onto, path, level),
+            Node::Raise(onto) => return self.onto(Meeting::Raise, onto, path, level),
+            Node::Weigh(weigh) => boxed(WeighSurface::new(weigh, below(&weigh.of, ".of")?)),
+            Node::Place(place) => boxed(PlaceSurface::new(place, below(&place.of, ".of")?)),
+            Node::Warp(warped) => {
+                let of = below(&warped.of, ".of")?;
+                boxed(WarpSurface::new(warped.by, of, &self.frame, seed))
+            }
+            Node::Deform(deform) => {
+                let of = below(&deform.of, ".of")?;
+                let by = deform.by.clone();
+                boxed(by.check().map(|()| DeformSurface { of, by }))
+            }
+        };
+        made.map_err(|error| error.within(path))
+    }
+
+    fn onto(
+        &mut self,
+        meeting: Meeting,
+        onto: &Onto,
+        path: &str,
+        level: usize,
+    ) -> Result<Box<dyn Surface>, SynthError> {
+        let ground = self.build(&onto.ground, &format!("{path}.ground"), level + 1)?;
+        let by = self.build(&onto.by, &format!("{path}.by"), level + 1)?;
+        Ok(Box::new(OntoSurface { meeting, ground, by }))
+    }
+
+    /// Counts a node and refuses trees that are too large.
+    fn count(&mut self, node: &Node, level: usize) -> Result<(), SynthError> {
+        self.nodes += 1;
+        if let Node::Curve(curve) = node {
+            self.points += curve.points_m.len();
+        }
+        for (count, most, what) in [
+            (level, DEEPEST, "levels"),
+            (self.nodes, MOST_NODES, "nodes"),
+            (self.points, MOST_POINTS, "points of curves"),
+        ] {
+            if count > most {
+                return Err(SynthError::TooLarge { generator: NAME, what, most });
+            }
+        }
+        match node {
+            Node::Blend(children) if children.is_empty() => Err(SynthError::Unusable {
+                generator: NAME,
+                parameter: "",
+                problem: "Blend([]) blends nothing; name one node or more".to_owned(),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn boxed<S: Surface + 'static>(
+    surface: Result<S, SynthError>,
+) -> Result<Box<dyn Surface>, SynthError> {
+    surface.map(|surface| Box::new(surface) as Box<dyn Surface>)
+}

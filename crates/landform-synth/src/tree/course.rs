@@ -1,0 +1,247 @@
+//! Distances to a curve, and its height beside it.
+
+/// Pieces that share a box.
+const BLOCK: usize = 16;
+
+/// A curve of straight pieces with a height, made ready for questions about places beside it.
+/// Blocks of pieces are passed over where their boxes are too far away to matter.
+#[derive(Debug)]
+pub(super) struct Course {
+    pieces: Vec<Piece>,
+    blocks: Vec<Block>,
+    /// Lowest and highest point.
+    heights: [f64; 2],
+    /// Slope of the extensions beside the curve: twice the steepest along it.
+    slope: f64,
+}
+
+/// A straight piece.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    from: [f64; 2],
+    /// Unit vector towards the end.
+    along: [f64; 2],
+    length: f64,
+    height: f64,
+    /// Rise a metre.
+    rise: f64,
+    /// Metres by which the extremes of the extensions lie off the nearest place, a metre aside.
+    shift: f64,
+}
+
+/// The box around some pieces.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    low: [f64; 2],
+    high: [f64; 2],
+    heights: [f64; 2],
+}
+
+impl Course {
+    /// A curve through points `[east, north, height]`; none if it has no length.
+    pub fn new(points: &[[f64; 3]]) -> Option<Self> {
+        let mut pieces: Vec<Piece> =
+            points.windows(2).filter_map(|pair| Piece::new(pair[0], pair[1])).collect();
+        if pieces.is_empty() {
+            return None;
+        }
+        let slope = 2.0 * pieces.iter().map(|piece| piece.rise.abs()).fold(0.0, f64::max);
+        for piece in &mut pieces {
+            // Where the derivative of rise t + slope hypot(t, 1) is 0.
+            let room = (slope * slope - piece.rise * piece.rise).sqrt();
+            piece.shift = if room > 0.0 { piece.rise / room } else { 0.0 };
+        }
+        let blocks: Vec<Block> = pieces.chunks(BLOCK).map(Block::around).collect();
+        let heights = blocks.iter().map(|block| block.heights);
+        let heights = heights.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        Some(Self { pieces, blocks, heights, slope })
+    }
+
+    /// Lowest and highest point.
+    pub fn heights(&self) -> [f64; 2] {
+        self.heights
+    }
+
+    /// Lipschitz constant of [`Course::height`].
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// South-western and north-eastern corner of the rectangle around the curve.
+    pub fn extent(&self) -> [[f64; 2]; 2] {
+        let pick = |of: fn(&Block) -> [f64; 2], least: fn(f64, f64) -> f64| {
+            let corners = self.blocks.iter().map(of);
+            corners.reduce(|a, b| [least(a[0], b[0]), least(a[1], b[1])]).unwrap_or_default()
+        };
+        [pick(|block| block.low, f64::min), pick(|block| block.high, f64::max)]
+    }
+
+    /// The blocks with their pieces.
+    fn blocks(&self) -> impl Iterator<Item = (&Block, &[Piece])> {
+        self.blocks.iter().zip(self.pieces.chunks(BLOCK))
+    }
+
+    /// Distance to the curve, if it is less than `reach`.
+    pub fn distance(&self, point: [f64; 2], reach: f64) -> Option<f64> {
+        let mut nearest = reach * reach;
+        for (block, pieces) in self.blocks() {
+            if block.distance_squared(point) < nearest {
+                let distances = pieces.iter().map(|piece| piece.distance_squared(point));
+                nearest = distances.fold(nearest, f64::min);
+            }
+        }
+        (nearest < reach * reach).then(|| nearest.sqrt())
+    }
+
+    /// Height of the curve at a place on it, and half-way between both extensions beside it.
+    pub fn height(&self, point: [f64; 2]) -> f64 {
+        let [lowest, highest] = self.heights;
+        if self.slope == 0.0 {
+            return lowest;
+        }
+        let [mut above, mut below] = [f64::INFINITY, f64::NEG_INFINITY];
+        for (block, pieces) in self.blocks() {
+            let margin = self.slope * block.distance_squared(point).sqrt();
+            let can_be_least = block.heights[0] + margin < above;
+            let can_be_most = block.heights[1] - margin > below;
+            for piece in pieces {
+                let [along, aside] = piece.coordinates(point);
+                if can_be_least {
+                    above = above.min(piece.cone(along, aside, -aside * piece.shift, self.slope));
+                }
+                if can_be_most {
+                    below = below.max(piece.cone(along, aside, aside * piece.shift, -self.slope));
+                }
+            }
+        }
+        (0.5 * (above + below)).clamp(lowest, highest)
+    }
+}
+
+impl Piece {
+    /// The piece between two points `[east, north, height]` if they are apart.
+    fn new(from: [f64; 3], to: [f64; 3]) -> Option<Self> {
+        let [east, north] = [to[0] - from[0], to[1] - from[1]];
+        let length = east.hypot(north);
+        (length > 0.0).then(|| Self {
+            from: [from[0], from[1]],
+            along: [east / length, north / length],
+            length,
+            height: from[2],
+            rise: (to[2] - from[2]) / length,
+            shift: 0.0,
+        })
+    }
+
+    /// Place of a point along the piece, and its distance from the line.
+    fn coordinates(&self, point: [f64; 2]) -> [f64; 2] {
+        let [east, north] = [point[0] - self.from[0], point[1] - self.from[1]];
+        let [x, y] = self.along;
+        [east * x + north * y, (north * x - east * y).abs()]
+    }
+
+    fn distance_squared(&self, point: [f64; 2]) -> f64 {
+        let [along, aside] = self.coordinates(point);
+        let beyond = along - along.clamp(0.0, self.length);
+        beyond * beyond + aside * aside
+    }
+
+    /// Height `along` and `aside` of the piece of the cone with the given slope that stands on
+    /// the place on the piece which is `shift` from the nearest.
+    fn cone(&self, along: f64, aside: f64, shift: f64, slope: f64) -> f64 {
+        let foot = (along + shift).clamp(0.0, self.length);
+        self.height + self.rise * foot + slope * (along - foot).hypot(aside)
+    }
+}
+
+impl Block {
+    fn around(pieces: &[Piece]) -> Self {
+        let mut block = Self {
+            low: [f64::INFINITY; 2],
+            high: [f64::NEG_INFINITY; 2],
+            heights: [f64::INFINITY, f64::NEG_INFINITY],
+        };
+        for piece in pieces {
+            for share in [0.0, piece.length] {
+                let height = piece.height + share * piece.rise;
+                block.heights = [block.heights[0].min(height), block.heights[1].max(height)];
+                for axis in 0..2 {
+                    let place = piece.from[axis] + share * piece.along[axis];
+                    block.low[axis] = block.low[axis].min(place);
+                    block.high[axis] = block.high[axis].max(place);
+                }
+            }
+        }
+        block
+    }
+
+    /// Square of the distance to the box, 0 within.
+    fn distance_squared(&self, point: [f64; 2]) -> f64 {
+        let [x, y] =
+            [0, 1].map(|axis| point[axis] - point[axis].clamp(self.low[axis], self.high[axis]));
+        x * x + y * y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A winding curve of 200 points that falls by 30 m, not evenly.
+    fn winding() -> Vec<[f64; 3]> {
+        (0..200)
+            .map(f64::from)
+            .map(|n| {
+                [5.0 * n, 80.0 * (0.11 * n).sin() + 20.0 * (0.7 * n).cos(), 30.0 - 2.1 * n.sqrt()]
+            })
+            .collect()
+    }
+
+    /// Distance and height from a great many places on the curve, as the definitions have it.
+    fn dense(points: &[[f64; 3]], slope: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [mut distance, mut above, mut below] =
+            [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+        for pair in points.windows(2) {
+            for part in 0..=400 {
+                let share = f64::from(part) / 400.0;
+                let [east, north, height] =
+                    [0, 1, 2].map(|axis| pair[0][axis] + share * (pair[1][axis] - pair[0][axis]));
+                let away = (east - x).hypot(north - y);
+                distance = distance.min(away);
+                above = above.min(height + slope * away);
+                below = below.max(height - slope * away);
+            }
+        }
+        [distance, 0.5 * (above + below)]
+    }
+
+    #[test]
+    fn distances_and_heights_are_those_of_the_definition() {
+        let points = winding();
+        let course = Course::new(&points).unwrap();
+        for number in 0..150 {
+            let n = f64::from(number);
+            let place = [(n * 37.7) % 1100.0 - 50.0, (n * 13.3) % 400.0 - 200.0];
+            let [distance, height] = dense(&points, course.slope(), place);
+            let found = course.distance(place, 1e6).unwrap();
+            assert!((found - distance).abs() < 2e-3, "{place:?} {found} {distance}");
+            let [lowest, highest] = course.heights();
+            let found = course.height(place);
+            assert!((found - height.clamp(lowest, highest)).abs() < 1e-3, "{found} {height}");
+        }
+        assert_eq!(course.distance([500.0, 500.0], 10.0), None);
+    }
+
+    #[test]
+    fn the_curve_keeps_its_height() {
+        let points = winding();
+        let course = Course::new(&points).unwrap();
+        for pair in points.windows(2) {
+            let middle = [0, 1, 2].map(|axis| 0.5 * (pair[0][axis] + pair[1][axis]));
+            assert!((course.height([middle[0], middle[1]]) - middle[2]).abs() < 1e-9);
+        }
+        // Beside a straight piece it is the height of the nearest place.
+        let straight = Course::new(&[[0.0, 0.0, 0.0], [1000.0, 0.0, 50.0]]).unwrap();
+        assert!((straight.height([500.0, 120.0]) - 25.0).abs() < 1e-9);
+    }
+}
