@@ -18,6 +18,7 @@
 //! periodic axes.
 
 mod error;
+pub mod exact;
 mod faulting;
 mod fbm;
 mod fractal;
@@ -47,7 +48,7 @@ pub use sinusoid::Sinusoid;
 pub use smooth::SmoothNoise;
 pub use tree::{
     Bell, Bounds, ConstructionTree, Curve, Deform, Disc, Node, Onto, Place, Plane,
-    SelectiveScaling, Terraces, Terrain, VerticalMap, Warped, Weigh,
+    SelectiveScaling, Squig, Terraces, Terrain, VerticalMap, Warped, Weigh,
 };
 pub use uniform::Uniform;
 

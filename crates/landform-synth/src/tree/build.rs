@@ -55,6 +55,11 @@ impl Builder {
         let made: Result<Box<dyn Surface>, SynthError> = match node {
             Node::Disc(disc) => boxed(DiscSurface::new(disc, &self.frame, seed)),
             Node::Curve(curve) => boxed(CurveSurface::new(curve)),
+            Node::Squig(squig) => {
+                let curve = squig.curve(seed).map_err(|error| error.within(path))?;
+                self.count_points(curve.points_m.len()).map_err(|error| error.within(path))?;
+                boxed(CurveSurface::new(&curve))
+            }
             Node::Bell(bell) => boxed(bell.check().map(|()| *bell)),
             Node::Plane(plane) => boxed(PlaneSurface::new(plane)),
             Node::Noise(noise) => boxed(NoiseSurface::new(*noise, &self.frame, seed)),
@@ -96,22 +101,18 @@ impl Builder {
         Ok(Box::new(OntoSurface { meeting, ground, by }))
     }
 
+    fn count_points(&mut self, points: usize) -> Result<(), SynthError> {
+        self.points += points;
+        within(self.points, MOST_POINTS, "points of curves")
+    }
+
     /// Counts a node and refuses trees that are too large.
     fn count(&mut self, node: &Node, level: usize) -> Result<(), SynthError> {
         self.nodes += 1;
-        if let Node::Curve(curve) = node {
-            self.points += curve.points_m.len();
-        }
-        for (count, most, what) in [
-            (level, DEEPEST, "levels"),
-            (self.nodes, MOST_NODES, "nodes"),
-            (self.points, MOST_POINTS, "points of curves"),
-        ] {
-            if count > most {
-                return Err(SynthError::TooLarge { generator: NAME, what, most });
-            }
-        }
+        within(level, DEEPEST, "levels")?;
+        within(self.nodes, MOST_NODES, "nodes")?;
         match node {
+            Node::Curve(curve) => self.count_points(curve.points_m.len()),
             Node::Blend(children) if children.is_empty() => Err(SynthError::Unusable {
                 generator: NAME,
                 parameter: "",
@@ -120,6 +121,14 @@ impl Builder {
             _ => Ok(()),
         }
     }
+}
+
+/// Refuses more than `most` of something.
+fn within(count: usize, most: usize, what: &'static str) -> Result<(), SynthError> {
+    if count > most {
+        return Err(SynthError::TooLarge { generator: NAME, what, most });
+    }
+    Ok(())
 }
 
 fn boxed<S: Surface + 'static>(

@@ -3,6 +3,10 @@
 /// Pieces that share a box.
 const BLOCK: usize = 16;
 
+/// Least and greatest slope of the extensions beside a curve, over the steepest along it.
+const LEAST: f64 = 2.0;
+const MOST: f64 = 32.0;
+
 /// A curve of straight pieces with a height, made ready for questions about places beside it.
 /// Blocks of pieces are passed over where their boxes are too far away to matter.
 #[derive(Debug)]
@@ -11,7 +15,7 @@ pub(super) struct Course {
     blocks: Vec<Block>,
     /// Lowest and highest point.
     heights: [f64; 2],
-    /// Slope of the extensions beside the curve: twice the steepest along it.
+    /// Slope of the extensions beside the curve.
     slope: f64,
 }
 
@@ -45,13 +49,14 @@ impl Course {
         if pieces.is_empty() {
             return None;
         }
-        let slope = 2.0 * pieces.iter().map(|piece| piece.rise.abs()).fold(0.0, f64::max);
+        let blocks: Vec<Block> = pieces.chunks(BLOCK).map(Block::around).collect();
+        let steepest = pieces.iter().map(|piece| piece.rise.abs()).fold(0.0, f64::max);
+        let slope = slope_across(&pieces, &blocks, [LEAST * steepest, MOST * steepest]);
         for piece in &mut pieces {
             // Where the derivative of rise t + slope hypot(t, 1) is 0.
             let room = (slope * slope - piece.rise * piece.rise).sqrt();
             piece.shift = if room > 0.0 { piece.rise / room } else { 0.0 };
         }
-        let blocks: Vec<Block> = pieces.chunks(BLOCK).map(Block::around).collect();
         let heights = blocks.iter().map(|block| block.heights);
         let heights = heights.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
         Some(Self { pieces, blocks, heights, slope })
@@ -118,6 +123,30 @@ impl Course {
     }
 }
 
+/// The steepest slope in a straight line from the beginning of any piece to that of any other, as
+/// far as it lies between two limits. With less, the extensions would miss the curve.
+fn slope_across(pieces: &[Piece], blocks: &[Block], [least, most]: [f64; 2]) -> f64 {
+    let mut slope = least;
+    for (first, block) in blocks.iter().enumerate() {
+        for (second, other) in blocks.iter().enumerate().skip(first) {
+            let fall =
+                (block.heights[1] - other.heights[0]).max(other.heights[1] - block.heights[0]);
+            if fall <= slope * block.gap(other) {
+                continue;
+            }
+            let within = |number: usize| pieces.iter().skip(number * BLOCK).take(BLOCK);
+            for (from, to) in within(first).flat_map(|a| within(second).map(move |b| (a, b))) {
+                let away = (from.from[0] - to.from[0]).hypot(from.from[1] - to.from[1]);
+                let fall = (from.height - to.height).abs();
+                if fall > slope * away {
+                    slope = if fall < most * away { fall / away } else { most };
+                }
+            }
+        }
+    }
+    slope
+}
+
 impl Piece {
     /// The piece between two points `[east, north, height]` if they are apart.
     fn new(from: [f64; 3], to: [f64; 3]) -> Option<Self> {
@@ -175,6 +204,14 @@ impl Block {
         block
     }
 
+    /// Distance to another box, 0 where they meet.
+    fn gap(&self, other: &Self) -> f64 {
+        let [x, y] = [0, 1].map(|axis| {
+            (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0)
+        });
+        x.hypot(y)
+    }
+
     /// Square of the distance to the box, 0 within.
     fn distance_squared(&self, point: [f64; 2]) -> f64 {
         let [x, y] =
@@ -230,6 +267,25 @@ mod tests {
             assert!((found - height.clamp(lowest, highest)).abs() < 1e-3, "{found} {height}");
         }
         assert_eq!(course.distance([500.0, 500.0], 10.0), None);
+    }
+
+    #[test]
+    fn slopes_across_are_those_of_all_pairs() {
+        let points = winding();
+        let slopes = points.iter().flat_map(|a| {
+            let slope = |b: &[f64; 3]| (a[2] - b[2]).abs() / (a[0] - b[0]).hypot(a[1] - b[1]);
+            points[..199].iter().filter(move |b| *b != a).map(slope)
+        });
+        let expected = slopes.fold(0.0, f64::max);
+        let found = Course::new(&points).unwrap().slope();
+        let along = points
+            .windows(2)
+            .map(|p| (p[1][2] - p[0][2]).abs() / (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]));
+        let along = along.fold(0.0, f64::max);
+        assert_eq!(found, expected.clamp(LEAST * along, MOST * along));
+        // A hairpin whose arms nearly touch is bounded.
+        let hairpin = [[0.0, 0.0, 10.0], [100.0, 0.0, 5.0], [0.0, 0.01, 0.0], [-9.0, 1.0, 0.0]];
+        assert_eq!(Course::new(&hairpin).unwrap().slope(), MOST * 0.05);
     }
 
     #[test]

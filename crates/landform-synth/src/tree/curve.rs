@@ -17,14 +17,15 @@ use crate::error::{Checks, check_steps};
 /// On the curve, z is its height there. Beside it, z is not simply taken from the nearest place,
 /// which would tear the ground where two places of a bend are equally near, but half-way between
 /// McShane's greatest and least extension, `min over q of (z_q + s |p - q|)` and
-/// `max over q of (z_q - s |p - q|)`, with `s` twice the steepest slope along the curve; beside a
-/// straight piece that is the height of the nearest place.
+/// `max over q of (z_q - s |p - q|)`, which beside a straight piece is the height of the nearest
+/// place. `s` is the steepest slope in a straight line from point to point of the curve, at least
+/// 2 and at most 32 times the steepest slope along it.
 ///
 /// L is s plus the steepest slope of the cross-section, A is `1.717 / r`.
 ///
 /// # Limits
-/// Where the curve runs back upon itself, so that it is steeper than s across the neck of a bend,
-/// the heights of both arms are drawn together.
+/// Where the curve nearly meets itself at another height, so that 32 times is too little, the
+/// heights of both arms are drawn together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Curve {

@@ -12,6 +12,7 @@ mod onto;
 mod place;
 mod plane;
 mod region;
+mod squig;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -31,6 +32,7 @@ pub use node::Node;
 pub use onto::Onto;
 pub use place::Place;
 pub use plane::{Bell, Plane};
+pub use squig::Squig;
 pub use vertical::{Deform, SelectiveScaling, Terraces, VerticalMap};
 pub use warp::Warped;
 pub use weigh::Weigh;
@@ -53,7 +55,7 @@ const NAME: &str = "ConstructionTree";
 ///
 /// Every node of the tree gives an elevation `h(p)` and a weight `a(p)`, at least 0, for every
 /// place `p`: metres east and north of the south-western node of the lattice. Leaves are
-/// landforms (`Disc`, `Curve`, `Bell`, `Plane`, `Noise`), the other nodes put them together
+/// landforms (`Disc`, `Curve`, `Squig`, `Bell`, `Plane`, `Noise`), the other nodes put them together
 /// (`Blend`, `Replace`, `Add`, `Carve`, `Raise`) or change them (`Weigh`, `Place`, `Warp`,
 /// `Deform`). Where the root has a weight below 1, that share of it replaces `ground_m`.
 ///

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Bell, Curve, Deform, Disc, Onto, Place, Plane, Warped, Weigh};
+use super::{Bell, Curve, Deform, Disc, Onto, Place, Plane, Squig, Warped, Weigh};
 use crate::FractalNoise;
 
 /// A node of a construction tree: a landform, or what is made of others. Each is documented, with
@@ -14,6 +14,8 @@ pub enum Node {
     Disc(Disc),
     /// A river bed, a valley or a ridge along a curve.
     Curve(Curve),
+    /// The same along a curve that winds as rivers do.
+    Squig(Squig),
     /// A hill with the profile of a bell curve.
     Bell(Bell),
     /// A plane, level or tilted.

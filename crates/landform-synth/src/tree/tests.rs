@@ -105,6 +105,26 @@ fn discs_keep_the_height_of_their_centre() {
     assert!((height - 50.0).abs() > 0.1 && (weight - 0.421875).abs() < 1e-12);
 }
 
+/// A river along a squig falls from end to end, and its bed is where the curve is.
+#[test]
+fn squigs_fall_evenly() {
+    let squig = Squig {
+        from_m: [100.0, 300.0, 60.0],
+        to_m: [900.0, 500.0, 20.0],
+        profile_m: vec![[0.0, 0.0], [40.0, 10.0]],
+        reach_m: 60.0,
+        ..Default::default()
+    };
+    let surface = ready(&Node::Squig(squig.clone()));
+    for (place, height) in [(squig.from_m, 60.0), (squig.to_m, 20.0)] {
+        let found = at(&*surface, [place[0], place[1]]);
+        assert!((found[0] - height).abs() < 1e-6 && (found[1] - 1.0).abs() < 1e-9, "{found:?}");
+    }
+    explored(&*surface, &surface.bounds(&SQUARE), &squig);
+    let bad = Node::Squig(Squig { shortcut: 0.2, ..squig });
+    assert!(refusal(bad).contains("shortcut is 0.2"));
+}
+
 #[test]
 fn placed_nodes_are_moved_turned_and_scaled() {
     let of = Box::new(disc(100.0, 0.0, 50.0, 30.0));
