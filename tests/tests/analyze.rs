@@ -1,6 +1,7 @@
 //! `landform analyze`: what it prints, and what it refuses.
 
 use landform::io::{IfExists, Metadata, Raster, write_raster};
+use landform::view::Image;
 use landform_tests::{Ended, Program, Scratch, write_hills};
 use serde_json::Value;
 
@@ -29,7 +30,7 @@ fn a_raster_gives_a_table_and_an_object_with_all_keys() {
     let scratch = Scratch::new("analyze");
     write_hills(&scratch.path("hills.tif"), 120, 90);
     let table = call(&scratch, "hills.tif").good();
-    assert!(table.starts_with("hills.tif: 120 x 90 cells of 30 m, 3.600 x 2.700 km, no gaps\n"));
+    assert!(table.starts_with("hills.tif: 120 x 90 cells of 30 m, 3.6 x 2.7 km, no gaps\n"));
     for part in
         ["hypsometry   integral 0.", "spectrum     beta ", "RMS ", "drainage     exceedance"]
     {
@@ -87,6 +88,68 @@ fn a_tilted_plane_has_the_numbers_of_a_plane() {
     assert!(found["drainage"]["hack"].is_null());
     let notes = found["notes"].to_string();
     assert!(notes.contains("hack") && notes.contains("three bins"), "{notes}");
+}
+
+/// Map, view, spectrum and curve side by side, as picture and as text.
+#[test]
+fn a_folder_takes_the_numbers_and_a_figure() {
+    let scratch = Scratch::new("figure");
+    write_hills(&scratch.path("hills.tif"), 60, 90);
+    let table = call(&scratch, "hills.tif -o out").good();
+    assert!(table.ends_with("  figure       out/hills.png\n"), "{table}");
+    let names = ["hills.json", "hills.png", "hills.svg"];
+    let folder = scratch.path("out");
+    let found: Vec<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    assert!(found.len() == 3 && names.iter().all(|name| found.iter().any(|f| f == name)));
+    let (image, text) = Image::read_png(&folder.join("hills.png")).expect("a picture");
+    assert_eq!((image.width, image.height), (4 * 800, 740 + 56));
+    assert!(text.contains(&("Title".to_owned(), "hills.tif".to_owned())), "{text:?}");
+    let svg = std::fs::read_to_string(folder.join("hills.svg")).unwrap();
+    assert_eq!(svg.matches("<image ").count(), 3, "map, view and spectrum");
+    for words in [
+        "(a) map",
+        "(b) view",
+        "(c) spectral density",
+        "(d) hypsometric curve",
+        "height (m)",
+        "km from the western edge",
+        "RMS 0.",
+        "share of the area above",
+        "integral 0.",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let json = std::fs::read_to_string(folder.join("hills.json")).unwrap();
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json, object(&scratch, "hills.tif"));
+}
+
+#[test]
+fn what_is_there_is_not_overwritten_and_no_two_files_share_a_name() {
+    let scratch = Scratch::new("folders");
+    write_hills(&scratch.path("a.tif"), 20, 20);
+    write_hills(&scratch.path("a.asc"), 20, 20);
+    call(&scratch, "a.tif a.asc -o out").good();
+    let names = || {
+        let entries = std::fs::read_dir(scratch.path("out")).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    let both = ["a-2.json", "a-2.png", "a-2.svg", "a.json", "a.png", "a.svg"];
+    assert_eq!(names(), both);
+    let message = call(&scratch, "a.tif -o out").refused();
+    assert!(message.contains("out exists and is not empty") && message.contains("--force"));
+    call(&scratch, "a.tif -o out --force").good();
+    assert_eq!(names(), both);
+    assert!(call(&scratch, "a.tif -o a.asc").refused().contains("is a file"));
+    call(&scratch, "none.tif -o new").refused();
+    assert!(!scratch.path("new").exists(), "nothing to write, no folder");
+    assert_eq!(call(&scratch, "a.tif --force").status, Some(2), "--force is for -o");
 }
 
 #[test]

@@ -36,6 +36,7 @@ mod hypsometry;
 mod level_set;
 mod line;
 mod polyline;
+mod projection;
 mod radial;
 mod spectrum;
 mod summary;
@@ -52,6 +53,7 @@ pub use hypsometry::{
 };
 pub use level_set::{LevelSet, LevelSetEdge, LevelSetError, level_sets};
 pub use polyline::{Polyline, PolylineError};
+pub use projection::on_plane;
 pub use radial::{PowerBin, RadialExponent, RadialSpectrum};
 pub use spectrum::{AnalysisError, Spectrum, Wave};
 pub use summary::SpectralSummary;

@@ -94,13 +94,21 @@ impl Image {
     pub fn write_png(&self, path: &Path, text: &[(&str, &str)]) -> Result<(), ViewError> {
         self.check()?;
         let (guard, file) = AtomicFile::create(path)?;
-        let problem = |error: png::EncodingError| ViewError::format(path, error);
-        let mut encoder = png::Encoder::new(file, self.width as u32, self.height as u32);
-        configure(&mut encoder, text).map_err(problem)?;
-        let mut writer = encoder.write_header().map_err(problem)?;
-        writer.write_image_data(self.rgb.as_flattened()).map_err(problem)?;
-        writer.finish().map_err(problem)?;
+        self.encode_png(file, text).map_err(|error| ViewError::format(path, error))?;
         guard.finish()
+    }
+
+    /// Writes the bytes of a PNG file.
+    pub(crate) fn encode_png(
+        &self,
+        to: impl std::io::Write,
+        text: &[(&str, &str)],
+    ) -> Result<(), png::EncodingError> {
+        let mut encoder = png::Encoder::new(to, self.width as u32, self.height as u32);
+        configure(&mut encoder, text)?;
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(self.rgb.as_flattened())?;
+        writer.finish()
     }
 
     /// Reads an 8-bit colour PNG file and its text entries.

@@ -51,7 +51,7 @@ impl Ground {
     }
 
     /// Place in the colour map of a height, on a surface whose heights have the range `own`.
-    fn place(&self, metres: f64, own: [f64; 2]) -> f64 {
+    pub(crate) fn place(&self, metres: f64, own: [f64; 2]) -> f64 {
         let [low, high] = self.range_m.unwrap_or(own);
         let middle = self.middle_m.unwrap_or(low / 2.0 + high / 2.0);
         let upper = (metres - middle) * (high - low) >= 0.0;

@@ -126,6 +126,16 @@ fn step(points: &[[f64; 2]], place: [f64; 2], damping: f64) -> [f64; 2] {
     let [oo, zz] = [oo, zz].map(|square| square * (1.0 + damping) + f64::MIN_POSITIVE);
     let determinant = oo * zz - oz * oz;
     let moves = [(zz * o - oz * z) / determinant, (oo * z - oz * o) / determinant];
+    let leaves = [0, 1].map(|axis| {
+        let [least, most] = SEARCHED[axis];
+        !(least..=most).contains(&(place[axis] + moves[axis]))
+    });
+    // Along the border of the range the other axis is searched alone.
+    let moves = match leaves {
+        [true, false] => [moves[0], z / zz],
+        [false, true] => [o / oo, moves[1]],
+        _ => moves,
+    };
     std::array::from_fn(|axis| {
         let [least, most] = SEARCHED[axis];
         let next = place[axis] + moves[axis];
@@ -162,6 +172,25 @@ mod tests {
         {
             assert_eq!(StrahlerCurve::new(ratio, z), None);
         }
+    }
+
+    /// A curve that no member comes near: the best one has the largest ratio of the search, and the
+    /// exponent that is best for it.
+    #[test]
+    fn at_the_border_of_the_search_the_other_number_is_still_the_best() {
+        let heights: Vec<f64> = (0..2000)
+            .map(|cell| f64::from(cell) / 2000.0)
+            .map(|share| if share < 0.35 { share } else { 1.0 - (1.0 - share).powf(1.6) * 0.6 })
+            .collect();
+        let curve = HypsometricCurve::new(&heights).unwrap();
+        let found = FamilyFit::new(&curve);
+        let misfit = |z: f64| {
+            let model = StrahlerCurve { a_over_d: found.curve.a_over_d, z };
+            curve.points().map(|[x, y]| (model.height_at(x) - y).powi(2)).sum::<f64>()
+        };
+        let z = found.curve.z;
+        assert!(found.curve.a_over_d > 0.9998, "{found:?}");
+        assert!(misfit(z) <= misfit(1.0005 * z) && misfit(z) <= misfit(0.9995 * z), "{found:?}");
     }
 
     /// Second differences change sign where the formula says.

@@ -5,6 +5,7 @@ use super::drawing::{Anchor, Colour, Drawing, Frame, INK, Place, Shape, Words};
 use super::figure::Panel;
 use super::legend;
 use super::marks::{LINE_WIDTH, colour, dashes, mark};
+use super::picture::Picture;
 use super::series::{Rule, Series};
 use super::ticks::{Tick, named, ticks};
 use crate::text;
@@ -55,7 +56,17 @@ impl Axes {
 
     /// Draws the panel with its plot in `frame`.
     pub fn draw(&self, panel: &Panel, frame: Frame, drawing: &mut Drawing) {
-        self.grid(frame, drawing);
+        drawing.clip = Some(frame);
+        if let Some(picture) = &panel.picture {
+            self.picture(picture, frame, drawing);
+        }
+        drawing.clip = None;
+        if panel.bare {
+            return;
+        }
+        if panel.picture.is_none() {
+            self.grid(frame, drawing);
+        }
         drawing.clip = Some(frame);
         panel.rules.iter().for_each(|rule| self.rule(*rule, frame, drawing));
         for (index, series) in panel.series.iter().enumerate() {
@@ -73,6 +84,19 @@ impl Axes {
         let marks = panel.series.iter().flat_map(|series| &series.points);
         let places = marks.filter_map(|point| self.place(frame, [point.x, point.y])).collect();
         legend::draw(panel, frame, places, drawing);
+    }
+
+    /// Width of the axes over their height, in units of both.
+    pub fn aspect(&self) -> f64 {
+        (self.x.high - self.x.low) / (self.y.high - self.y.low)
+    }
+
+    fn picture(&self, picture: &Picture, frame: Frame, drawing: &mut Drawing) {
+        let corner = |end: usize| self.place(frame, [picture.x[end], picture.y[end]]);
+        if let (Some([left, bottom]), Some([right, top])) = (corner(0), corner(1)) {
+            let (image, frame) = (picture.image.clone(), [left, top, right, bottom]);
+            drawing.add(Shape::Picture { image, frame });
+        }
     }
 
     /// The place of a pair of values; none for what cannot be drawn.
@@ -133,11 +157,12 @@ impl Axes {
         let places: Vec<Option<Place>> =
             series.points.iter().map(|point| self.place(frame, [point.x, point.y])).collect();
         if let Some(line) = series.line {
+            let width = series.width.map_or(LINE_WIDTH, |width| width as f32);
             // What cannot be drawn breaks the line.
             for places in places.split(Option::is_none).filter(|piece| piece.len() > 1) {
                 let places = places.iter().copied().flatten().collect();
                 let dashes = dashes(line);
-                drawing.add(Shape::Stroke { places, width: LINE_WIDTH, dashes, colour });
+                drawing.add(Shape::Stroke { places, width, dashes, colour });
             }
         }
         for (point, at) in series.points.iter().zip(&places) {

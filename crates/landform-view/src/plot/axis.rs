@@ -8,6 +8,9 @@ pub enum Scale {
     Linear,
     /// Equal ratios are equal lengths; values that are not positive are left out.
     Log,
+    /// The same on both sides of 0, which stands on the axis itself: a value lies at the decimal
+    /// logarithm of 1 more than its size.
+    SignedLog,
 }
 
 /// An axis of a panel.
@@ -34,9 +37,14 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Log, ..Self::default() }
     }
 
+    /// An axis that is logarithmic on both sides of 0.
+    pub fn signed_log(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::SignedLog, ..Self::default() }
+    }
+
     /// Whether a value can stand on the axis.
     pub(super) fn holds(&self, value: f64) -> bool {
-        value.is_finite() && (self.scale == Scale::Linear || value > 0.0)
+        value.is_finite() && (self.scale != Scale::Log || value > 0.0)
     }
 
     /// The range that is drawn for these values.
@@ -50,7 +58,7 @@ impl Axis {
         // Beyond, differences and powers of ten would not be finite.
         let most = match self.scale {
             Scale::Linear => 1e300,
-            Scale::Log => 300.0,
+            Scale::Log | Scale::SignedLog => 300.0,
         };
         let [low, high] = [low, high].map(|along| along.clamp(-most, most));
         Span { scale: self.scale, low, high }
@@ -69,9 +77,9 @@ impl Axis {
         match (low <= high, high - low) {
             (false, _) => [0.0, 1.0],
             (true, width) if width <= 1e-12 * low.abs().max(high.abs()) => match self.scale {
-                Scale::Linear if low == 0.0 => [-1.0, 1.0],
+                Scale::Linear | Scale::SignedLog if low == 0.0 => [-1.0, 1.0],
                 Scale::Linear => [low - 0.1 * low.abs(), high + 0.1 * high.abs()],
-                Scale::Log => [low - 0.5, high + 0.5],
+                Scale::Log | Scale::SignedLog => [low - 0.5, high + 0.5],
             },
             (true, width) => [low - MARGIN * width, high + MARGIN * width],
         }
@@ -84,6 +92,7 @@ impl Scale {
         match self {
             Self::Linear => value,
             Self::Log => value.log10(),
+            Self::SignedLog => value.signum() * (1.0 + value.abs()).log10(),
         }
     }
 }
@@ -113,6 +122,9 @@ mod tests {
         assert_eq!([2.0, 3.0, 5.0].map(|value| linear.share(value)), [0.0, 0.5, 1.5]);
         let log = Axis { range: Some([1.0, 1e4]), ..Axis::log("") }.span([].into_iter());
         assert_eq!([1.0, 10.0, 1e4].map(|value| log.share(value)), [0.0, 0.25, 1.0]);
+        let both = Axis { range: Some([-99.0, 99.0]), ..Axis::signed_log("") };
+        let both = both.span([].into_iter());
+        assert_eq!([-99.0, -9.0, 0.0, 9.0].map(|v| both.share(v)), [0.0, 0.25, 0.5, 0.75]);
     }
 
     #[test]

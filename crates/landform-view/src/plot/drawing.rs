@@ -1,5 +1,7 @@
 //! Shapes on a page, which both kinds of file draw.
 
+use crate::Image;
+
 /// A colour, sRGB.
 pub(super) type Colour = [u8; 3];
 
@@ -32,6 +34,8 @@ pub(super) enum Shape {
     Stroke { places: Vec<Place>, width: f32, dashes: &'static [f32], colour: Colour },
     /// A filled polygon.
     Fill { corners: Vec<Place>, colour: Colour },
+    /// A picture, stretched over a rectangle.
+    Picture { image: Image, frame: Frame },
     /// Words.
     Words(Words),
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::axis::Axis;
 use super::drawing::Drawing;
 use super::layout;
+use super::picture::{ColourScale, Picture};
 use super::series::{Note, Rule, Series};
 use crate::atomic_file::{AtomicFile, write_error};
 use crate::{Image, ViewError};
@@ -25,6 +26,16 @@ pub struct Panel {
     pub rules: Vec<Rule>,
     /// Words in the plot.
     pub notes: Vec<Note>,
+    /// A picture below everything else.
+    pub picture: Option<Picture>,
+    /// What the colours of the picture mean.
+    pub colours: Option<ColourScale>,
+    /// Words below the plot.
+    pub caption: String,
+    /// Whether units are as long along both axes, as on a map.
+    pub equal: bool,
+    /// Whether the axes are left out, as round a view.
+    pub bare: bool,
 }
 
 /// Panels of one size, row by row.

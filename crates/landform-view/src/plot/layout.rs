@@ -2,7 +2,7 @@
 
 use super::axes::{Axes, SMALL};
 use super::drawing::{Anchor, Drawing, Frame};
-use super::figure::Figure;
+use super::figure::{Figure, Panel};
 use crate::montage::letter_name;
 
 /// Height of the letters of titles.
@@ -35,20 +35,65 @@ pub(super) fn draw(figure: &Figure) -> Drawing {
             true => format!("({}) {}", letter_name(index + 1), panel.title),
             false => panel.title.clone(),
         };
-        let frame = frame(corner, [width, height], numbers[column], !words.is_empty());
-        drawing.words(&words, [frame[0], frame[1] - 0.9 * SMALL], 1.1 * SMALL, Anchor::Start);
+        let room = room(panel, corner, [width, height], numbers[column], !words.is_empty());
+        drawing.words(&words, [room[0], room[1] - 0.9 * SMALL], 1.1 * SMALL, Anchor::Start);
+        let frame = if panel.equal || panel.bare { fitted(room, own.aspect()) } else { room };
         own.draw(panel, frame, &mut drawing);
+        if let Some(colours) = &panel.colours {
+            colours.draw(frame, &mut drawing);
+        }
+        let below = [0.5 * (room[0] + room[2]), corner[1] + height - 0.9 * SMALL];
+        drawing.words(&panel.caption, below, SMALL, Anchor::Middle);
     }
     drawing
 }
 
-/// The frame of a plot inside its panel, with room for numbers, labels and a title.
-fn frame([left, top]: [f32; 2], [width, height]: [f32; 2], numbers: f32, title: bool) -> Frame {
-    [
+/// The frame that a plot inside its panel may have, with room for numbers, labels, a title, a
+/// caption and a bar of colours.
+fn room(
+    panel: &Panel,
+    [left, top]: [f32; 2],
+    [width, height]: [f32; 2],
+    numbers: f32,
+    title: bool,
+) -> Frame {
+    let top_of_plot = top + GAP + if title { 1.8 * SMALL } else { 0.0 };
+    let caption = if panel.caption.is_empty() { 0.0 } else { 1.6 * SMALL };
+    let (beside, below) = match panel.bare {
+        true => (0.0, 0.0),
         // Long names beside an axis must leave room for the plot.
-        left + GAP + 1.8 * SMALL + numbers.min(0.4 * width) + 6.0,
-        top + GAP + if title { 1.8 * SMALL } else { 0.0 },
-        left + width - 1.8 * GAP,
-        top + height - GAP - 3.4 * SMALL,
-    ]
+        false => (1.8 * SMALL + numbers.min(0.4 * width) + 6.0, 3.4 * SMALL),
+    };
+    let bottom = top + height - GAP - below - caption;
+    let scale = panel.colours.as_ref().map_or(0.0, |colours| colours.room(bottom - top_of_plot));
+    [left + GAP + beside, top_of_plot, left + width - 1.8 * GAP - scale, bottom]
+}
+
+/// The largest frame of an aspect inside another, in its upper left corner.
+fn fitted([left, top, right, bottom]: Frame, aspect: f64) -> Frame {
+    let [width, height] = [right - left, bottom - top];
+    let aspect = if aspect.is_finite() && aspect > 0.0 { aspect as f32 } else { 1.0 };
+    // Nothing is thinner than a hundredth of its length, however long the map is.
+    let [across, down] = match width / height > aspect {
+        true => [(height * aspect).max(0.01 * height), height],
+        false => [width, (width / aspect).max(0.01 * width)],
+    };
+    [left, top, left + across, top + down]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_units_fit_into_their_room() {
+        let room = [10.0, 20.0, 210.0, 120.0];
+        assert_eq!(fitted(room, 2.0), room);
+        assert_eq!(fitted(room, 1.0), [10.0, 20.0, 110.0, 120.0]);
+        assert_eq!(fitted(room, 4.0), [10.0, 20.0, 210.0, 70.0]);
+        for aspect in [1e-9, 1e9, 0.0, f64::NAN] {
+            let [left, top, right, bottom] = fitted(room, aspect);
+            assert!(right > left && bottom > top, "{aspect}");
+        }
+    }
 }

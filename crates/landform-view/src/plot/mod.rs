@@ -1,5 +1,7 @@
 //! Plots: panels with axes, points, lines and error bars, as PNG and as SVG.
 //!
+//! Below the series of a panel may lie a [`Picture`], such as a map with its [`ColourScale`].
+//!
 //! A [`Figure`] is data; [`Figure::image`] and [`Figure::svg`] draw the same shapes, so both files
 //! show the same. Axes are linear or logarithmic, series differ by colour and by marker, and the
 //! colours can be told apart by the colour-blind (Okabe and Ito 2008). The bytes do not depend on
@@ -24,12 +26,14 @@
 
 mod axes;
 mod axis;
+mod base64;
 mod drawing;
 mod figure;
 mod label;
 mod layout;
 mod legend;
 mod marks;
+mod picture;
 mod raster;
 mod series;
 mod svg;
@@ -38,4 +42,5 @@ mod ticks;
 pub use axis::{Axis, Scale};
 pub use figure::{Figure, Panel};
 pub use label::label;
+pub use picture::{ColourScale, Picture};
 pub use series::{Line, Marker, Note, Point, Rule, Series};

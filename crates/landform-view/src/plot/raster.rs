@@ -26,6 +26,7 @@ impl Drawing {
                         corners.iter().map(|at| at.map(|c| c * scale)).collect();
                     page.fill(&corners, *colour);
                 }
+                Shape::Picture { image, frame } => page.picture(image, frame.map(|at| at * scale)),
                 Shape::Words(words) => page.words(words, scale),
             }
         }
@@ -72,6 +73,31 @@ impl Page<'_> {
             });
             let inside = samples.filter(|&sample| is_inside(sample, corners)).count();
             self.ink(column, row, colour, inside as f32 / (SAMPLES * SAMPLES) as f32);
+        }
+    }
+
+    /// Stretches a picture over a rectangle: each pixel takes the mean of those that it covers.
+    fn picture(&mut self, picture: &Image, frame: Frame) {
+        let [left, top, right, bottom] = frame;
+        let corners = [[left, top], [right, bottom]];
+        let covered = |place: f32, low: f32, high: f32, size: usize| {
+            let along = |at: f32| ((at - low) / (high - low) * size as f32).clamp(0.0, size as f32);
+            let first = (along(place).round() as usize).min(size - 1);
+            first..(along(place + 1.0).round() as usize).clamp(first + 1, size)
+        };
+        for (column, row) in Window::around(&corners, 0.0, self).pixels() {
+            let across = covered(column as f32, left, right, picture.width);
+            let down = covered(row as f32, top, bottom, picture.height);
+            let count = (across.len() * down.len()) as u32;
+            let mut sum = [0_u32; 3];
+            for pixel in down.flat_map(|y| across.clone().map(move |x| picture.pixel(x, y))) {
+                sum = [0, 1, 2].map(|channel| sum[channel] + u32::from(pixel[channel]));
+            }
+            let colour = sum.map(|sum| ((sum + count / 2) / count) as u8);
+            let inside =
+                |at: f32, low: f32, high: f32| (high.min(at + 1.0) - low.max(at)).clamp(0.0, 1.0);
+            let share = inside(column as f32, left, right) * inside(row as f32, top, bottom);
+            self.ink(column, row, colour, share);
         }
     }
 
@@ -224,6 +250,18 @@ mod tests {
         let line = page(line, None);
         assert!((ink(&line) - 6.0).abs() < 1.0, "{}", ink(&line));
         assert_eq!(line.pixel(3, 2), [0; 3]);
+    }
+
+    #[test]
+    fn a_picture_fills_its_rectangle() {
+        let mut image = Image::filled(4, 2, [0; 3]).unwrap();
+        image.rgb[7] = [200; 3];
+        let half = page(Shape::Picture { image: image.clone(), frame: [1.0, 1.0, 3.0, 2.0] }, None);
+        assert_eq!([half.pixel(1, 1), half.pixel(2, 1)], [[0; 3], [50; 3]]);
+        assert_eq!(half.pixel(3, 1), [255; 3]);
+        let twice = page(Shape::Picture { image, frame: [0.0, 0.0, 8.0, 4.0] }, None);
+        assert_eq!([twice.pixel(5, 3), twice.pixel(6, 2)], [[0; 3], [200; 3]]);
+        assert_eq!(twice.pixel(0, 4), [255; 3]);
     }
 
     #[test]

@@ -57,12 +57,14 @@ pub struct Series {
     pub marker: Option<Marker>,
     /// Number of the colour. Without it series take their colours in order.
     pub colour: Option<usize>,
+    /// Width of the line in units; the usual one without it.
+    pub width: Option<f64>,
 }
 
 impl Series {
     /// A series without line and marker, which the caller chooses.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
-        Self { name: name.into(), points, line: None, marker: None, colour: None }
+        Self { name: name.into(), points, line: None, marker: None, colour: None, width: None }
     }
 }
 

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
+use super::base64::base64;
 use super::drawing::{Anchor, Colour, Drawing, Frame, INK, Place, Shape, Words};
+use crate::Image;
 use crate::text::{EM, FOOT};
 
 impl Drawing {
@@ -58,8 +60,26 @@ fn element(shape: &Shape, clip: &str) -> String {
             let (points, colour) = (points(corners), hex(*colour));
             format!("<polygon points=\"{points}\" fill=\"{colour}\"{clip}/>\n")
         }
+        Shape::Picture { image, frame } => picture(image, *frame, clip),
         Shape::Words(words) => text(words),
     }
+}
+
+/// A picture as part of the file: nothing lies beside it that could be lost.
+fn picture(image: &Image, [left, top, right, bottom]: Frame, clip: &str) -> String {
+    let (width, height) = (right - left, bottom - top);
+    let mut bytes = Vec::new();
+    if let Err(error) = image.encode_png(&mut bytes, &[]) {
+        return format!(
+            "<!-- the picture cannot be encoded: {} -->\n",
+            escaped(&error.to_string())
+        );
+    }
+    format!(
+        "<image x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
+         preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"{clip}/>\n",
+        base64(&bytes)
+    )
 }
 
 fn text(words: &Words) -> String {

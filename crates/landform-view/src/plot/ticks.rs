@@ -16,6 +16,7 @@ pub(super) fn ticks(span: &Span, most: usize) -> Vec<Tick> {
         Scale::Linear => linear(span.low, span.high, most),
         Scale::Log if span.high - span.low < 1.0 => few_decades(span, most),
         Scale::Log => decades(span, most),
+        Scale::SignedLog => both_sides(span),
     }
 }
 
@@ -71,6 +72,20 @@ fn decades(span: &Span, most: f64) -> Vec<Tick> {
                 ticks.push(Tick { value, text });
             }
         }
+    }
+    ticks
+}
+
+/// 0 and the powers of ten on both sides of it, the small ones without their numbers.
+fn both_sides(span: &Span) -> Vec<Tick> {
+    let largest = span.low.abs().max(span.high.abs());
+    let powers = (0..=largest.min(300.0) as i32).map(|power| (power, 10.0_f64.powi(power)));
+    let text = |power: i32| (power > 0 || largest < 2.0).then(|| power_text(1, power));
+    let mut ticks = vec![Tick { value: 0.0, text: Some("0".to_owned()) }];
+    for (power, value) in powers {
+        let negative = text(power).map(|text| format!("\u{2212}{text}"));
+        ticks.push(Tick { value: -value, text: negative });
+        ticks.push(Tick { value, text: text(power) });
     }
     ticks
 }
@@ -141,6 +156,13 @@ mod tests {
         let small = ticks(&Span { scale: Scale::Log, low: 0.0, high: 4.0 }, 6);
         assert_eq!(small.iter().filter(|tick| tick.text.is_none()).count(), 4 * 8);
         assert_eq!(texts(Scale::Log, 2.0_f64.log10(), 4.0_f64.log10())[0], "2.0");
+    }
+
+    #[test]
+    fn signed_logarithms_have_the_same_ticks_on_both_sides() {
+        let reach = 513.0_f64.log10();
+        assert_eq!(texts(Scale::SignedLog, -reach, reach), ["0", "−10", "10", "−100", "100"]);
+        assert_eq!(texts(Scale::SignedLog, -0.8, 0.8), ["0", "−1", "1"]);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Analysis of files: everything that [`crate::analysis`] measures of a raster or of lines, in one
 //! call.
 //!
-//! [`analyze`] reads a file and measures it; what comes out is printed by [`Analysis::table`]
-//! and written by [`Analysis::json`]. The program `landform analyze` does no more than call these.
+//! [`analyze`] reads a file and measures it; what comes out is printed by [`Analysis::table`],
+//! written by [`Analysis::json`] and drawn by [`Analysis::figure`]. The program `landform analyze`
+//! does no more than call these.
 //!
 //! ```no_run
 //! use landform::analyze::{Analysis, Settings, analyze};
@@ -18,6 +19,8 @@
 //! What cannot be measured of a file (the spectrum of a flat terrain, a law of drainage of ten
 //! cells) is absent, and [`RasterNumbers::notes`] says why.
 
+mod figure;
+mod lines;
 mod notes;
 mod raster;
 mod shore;
@@ -29,13 +32,15 @@ mod window;
 
 use std::path::{Path, PathBuf};
 
-use landform_analysis::PolylineError;
-use landform_analysis::ScaleRange;
 use landform_analysis::grid::GridError;
+use landform_analysis::{DimensionError, PolylineError, ScaleRange};
 use landform_io::IoError;
+use landform_view::ViewError;
+use landform_view::plot::Figure;
 use serde::Serialize;
 use thiserror::Error;
 
+pub use lines::{LineAnalysis, LineNumbers};
 pub use raster::{Dimensions, Heights, RasterAnalysis, RasterNumbers};
 pub use shore::Shore;
 pub use slope::SlopeQuantiles;
@@ -70,8 +75,8 @@ pub enum AnalyzeError {
     Read(#[from] IoError),
     /// More cells than memory allows.
     #[error(
-        "{source}: analysis takes some {BYTES_A_CELL} bytes a cell, and {:.1} GiB may be used; \
-         raise it with --memory-limit-gib",
+        "{source} with --memory-limit-gib: {:.1} GiB may be used, and a cell takes up to \
+         {BYTES_A_CELL} bytes",
         *memory_bytes as f64 / f64::from(1 << 30)
     )]
     Memory {
@@ -88,6 +93,14 @@ pub enum AnalyzeError {
         /// What is wrong.
         source: GridError,
     },
+    /// The rulers that were asked for do not suit the lines.
+    #[error("{}: {source}", path.display())]
+    Rulers {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: DimensionError,
+    },
     /// The points of a file are no lines.
     #[error("{}: {source}", path.display())]
     Line {
@@ -98,12 +111,24 @@ pub enum AnalyzeError {
     },
 }
 
+impl AnalyzeError {
+    /// Why a file could not be read, with the limit if that was too low.
+    fn of(error: IoError, memory_bytes: u64) -> Self {
+        match error {
+            source @ IoError::TooLarge { .. } => Self::Memory { source, memory_bytes },
+            other => Self::Read(other),
+        }
+    }
+}
+
 /// What was found out about a file.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum Analysis {
     /// A raster of heights.
     Raster(Box<RasterAnalysis>),
+    /// Lines.
+    Lines(Box<LineAnalysis>),
 }
 
 impl Analysis {
@@ -117,15 +142,33 @@ impl Analysis {
     pub fn table(&self) -> String {
         match self {
             Self::Raster(raster) => table::raster(&raster.numbers),
+            Self::Lines(lines) => table::lines(&lines.numbers),
+        }
+    }
+
+    /// A figure laid out as figure 4.22 of the thesis: of a raster the map with its streams, a view,
+    /// the spectral density and the hypsometric curve; of lines the map, the length by dividers and
+    /// the number of boxes.
+    ///
+    /// # Errors
+    /// [`ViewError`] for terrains that no picture can show, such as heights beyond 1e12 m.
+    pub fn figure(&self) -> Result<Figure, ViewError> {
+        match self {
+            Self::Raster(raster) => figure::raster_figure(raster),
+            Self::Lines(lines) => Ok(figure::lines_figure(lines)),
         }
     }
 }
 
-/// Measures the raster or the lines of a file.
+/// Measures the lines of a `.csv`, `.geojson` or `.json` file, or the raster of any other.
 ///
 /// # Errors
 /// See [`AnalyzeError`].
 pub fn analyze(path: &Path, settings: &Settings) -> Result<Analysis, AnalyzeError> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ["csv", "geojson", "json"].contains(&ending.as_str()) {
+        return Ok(Analysis::Lines(Box::new(LineAnalysis::read(path, settings)?)));
+    }
     let terrain = Terrain::read(path, settings)?;
     Ok(Analysis::Raster(Box::new(RasterAnalysis::new(terrain))))
 }

@@ -4,6 +4,7 @@ use landform_analysis::hydrology::{Depressions, Drainage, FlowDirections, fill_d
 use landform_analysis::{Dimension, HypsometricCurve, Hypsometry, variogram_dimension};
 use serde::Serialize;
 
+use super::figure::{Density, Streams};
 use super::notes::Notes;
 use super::{Shore, SlopeQuantiles, Spectral, Terrain, Window, shore};
 
@@ -16,6 +17,20 @@ pub struct RasterAnalysis {
     /// The raster.
     #[serde(skip)]
     pub terrain: Terrain,
+    /// What figures show beside it.
+    #[serde(skip)]
+    pub(super) drawn: Drawn,
+}
+
+/// What only figures need.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Drawn {
+    /// The hypsometric curve.
+    pub curve: Option<HypsometricCurve>,
+    /// The plot of the spectrum.
+    pub density: Option<Density>,
+    /// Streams.
+    pub streams: Streams,
 }
 
 /// The numbers of a raster. What it is too small, too flat or too full of gaps for is `None`.
@@ -101,7 +116,9 @@ impl RasterAnalysis {
             let part = window.cut(heights, grid.columns());
             Spectral::measure(&grid, window, part, &mut notes)
         });
-        let (depressions, drainage) = hydrology(&terrain, &mut notes);
+        let (spectrum, density) =
+            spectrum.map(|(found, plot)| (found, Density::new(&plot))).unzip();
+        let water = Water::measure(&terrain, &mut notes);
         let numbers = RasterNumbers {
             file: terrain.file.clone(),
             kind: "raster",
@@ -111,14 +128,15 @@ impl RasterAnalysis {
             no_data_percent: 100.0 * missing as f64 / heights.len() as f64,
             heights: Heights::of(heights),
             hypsometry: curve.as_ref().map(Hypsometry::new),
-            spectrum: spectrum.map(|(numbers, _)| numbers),
+            spectrum,
             dimension: dimensions(&terrain, window, &mut notes),
             slope_deg: slope(&terrain, &mut notes),
-            depressions,
-            drainage,
+            depressions: water.depressions,
+            drainage: water.drainage,
             notes: notes.into_inner(),
         };
-        Self { numbers, terrain }
+        let drawn = Drawn { curve, density, streams: water.streams };
+        Self { numbers, terrain, drawn }
     }
 }
 
@@ -164,18 +182,31 @@ fn slope(terrain: &Terrain, notes: &mut Notes) -> Option<SlopeQuantiles> {
     slope
 }
 
-/// Depressions and drainage.
-fn hydrology(terrain: &Terrain, notes: &mut Notes) -> (Option<Depressions>, Option<Drainage>) {
-    let (grid, heights) = (&terrain.grid, &terrain.heights);
-    let Some(filled) = notes.found("depressions", fill_depressions(grid, heights)) else {
-        return (None, None);
-    };
-    let depressions = notes.found("depressions", Depressions::between(grid, heights, &filled));
-    let directions = FlowDirections::over_filled(grid, &filled);
-    let Some(directions) = notes.found("drainage", directions) else { return (depressions, None) };
-    let drainage = Drainage::along(&directions, &directions.contributing_cells(), &filled);
-    note_missing_laws(&drainage, notes);
-    (depressions, Some(drainage))
+/// Where water stands and flows.
+#[derive(Default)]
+struct Water {
+    depressions: Option<Depressions>,
+    drainage: Option<Drainage>,
+    streams: Streams,
+}
+
+impl Water {
+    fn measure(terrain: &Terrain, notes: &mut Notes) -> Self {
+        let (grid, heights) = (&terrain.grid, &terrain.heights);
+        let Some(filled) = notes.found("depressions", fill_depressions(grid, heights)) else {
+            return Self::default();
+        };
+        let depressions = notes.found("depressions", Depressions::between(grid, heights, &filled));
+        let directions = FlowDirections::over_filled(grid, &filled);
+        let Some(directions) = notes.found("drainage", directions) else {
+            return Self { depressions, ..Self::default() };
+        };
+        let cells = directions.contributing_cells();
+        let drainage = Drainage::along(&directions, &cells, &filled);
+        note_missing_laws(&drainage, notes);
+        let streams = Streams::new(&directions, &cells, heights, terrain.sea_m());
+        Self { depressions, drainage: Some(drainage), streams }
+    }
 }
 
 /// Says which laws of drainage could not be fitted.

@@ -4,7 +4,9 @@ use landform_analysis::hydrology::{Drainage, PowerLaw};
 use landform_analysis::{Dimension, Hypsometry};
 use serde::Serialize;
 
-use super::{Heights, RasterNumbers, Shore, SlopeQuantiles, Spectral, SpectralNumbers};
+use super::{
+    Heights, LineNumbers, RasterNumbers, Shore, SlopeQuantiles, Spectral, SpectralNumbers,
+};
 
 /// The lines of a raster.
 pub(super) fn raster(numbers: &RasterNumbers) -> String {
@@ -45,10 +47,32 @@ pub(super) fn raster(numbers: &RasterNumbers) -> String {
     text
 }
 
+/// The lines of a line file.
+pub(super) fn lines(numbers: &LineNumbers) -> String {
+    let LineNumbers { lines, closed, points, .. } = numbers;
+    let measured = if numbers.geographic { "degrees, measured on the sphere" } else { "metres" };
+    let kind = match (lines, closed) {
+        (1, 1) => "a closed line".to_owned(),
+        (1, _) => "an open line".to_owned(),
+        (count, closed) => format!("{count} lines, {closed} of them closed,"),
+    };
+    let mut text = format!("{}: {kind} of {points} points in {measured}\n", numbers.file);
+    let mut line = |name: &str, words: Option<String>| {
+        text += &format!("  {name:<12} {}\n", words.unwrap_or_else(|| "-".to_owned()));
+    };
+    line("length", Some(format!("{} km", short(numbers.length_m / 1000.0))));
+    line("divider", numbers.divider.as_ref().map(|found| dimension(found, "dividers")));
+    line("box", numbers.boxes.as_ref().map(|found| dimension(found, "boxes")));
+    for note in &numbers.notes {
+        line("note", Some(note.clone()));
+    }
+    text
+}
+
 fn heading(numbers: &RasterNumbers) -> String {
     let [columns, rows] = numbers.size;
     let [width, height] = numbers.cell_m;
-    let cells = match width == height {
+    let cells = match (width - height).abs() < 1e-4 * width {
         true => format!("{} m", short(width)),
         false => format!("{} x {} m", short(width), short(height)),
     };
@@ -154,7 +178,7 @@ fn network(found: &Drainage) -> String {
 }
 
 /// The name of a variant, as it stands in JSON, in words.
-fn words(variant: &impl Serialize) -> String {
+pub(super) fn words(variant: &impl Serialize) -> String {
     let name = serde_json::to_value(variant).unwrap_or_default();
     name.as_str().unwrap_or_default().replace('_', " ")
 }
@@ -169,9 +193,21 @@ pub(super) fn short(value: f64) -> String {
         1e1..1e2 => 2,
         1.0..1e1 => 3,
         1e-3..1.0 => 4,
-        _ => return format!("{value:.3e}"),
+        _ => {
+            let text = format!("{value:.3e}");
+            let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+            return format!("{}e{power}", plain(digits));
+        }
     };
-    format!("{value:.decimals$}")
+    plain(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// A number without the zeros at the end of its decimals.
+fn plain(digits: &str) -> &str {
+    match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.'),
+        false => digits,
+    }
 }
 
 #[cfg(test)]
@@ -188,7 +224,10 @@ mod tests {
             (1105.23, "1105"),
             (0.01234, "0.0123"),
             (12_345_678.0, "1.235e7"),
-            (1e-9, "1.000e-9"),
+            (1e-9, "1e-9"),
+            (0.1, "0.1"),
+            (66.5, "66.5"),
+            (-1200.4, "-1200"),
         ] {
             assert_eq!(short(value), text);
         }

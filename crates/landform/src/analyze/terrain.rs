@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use landform_analysis::grid::Grid;
-use landform_io::{IoError, RasterFile, ReadLimits, read_raster_file};
+use landform_io::{RasterFile, ReadLimits, read_raster_file};
 
 use super::notes::Notes;
 use super::{AnalyzeError, Settings};
 
 /// Memory that the analysis of a raster takes at most, in bytes a cell, the raster itself
 /// included; measured, and rounded up.
-pub const BYTES_A_CELL: u64 = 96;
+pub const BYTES_A_CELL: u64 = 112;
 
 /// Heights of a raster file and the size of its cells on the ground.
 #[derive(Clone, Debug)]
@@ -39,10 +39,7 @@ impl Terrain {
         let memory_bytes = settings.memory_bytes;
         let most = (memory_bytes / BYTES_A_CELL).min(Grid::MOST_CELLS as u64);
         let file = read_raster_file(path, &ReadLimits { max_cells: most });
-        let file = file.map_err(|error| match error {
-            source @ IoError::TooLarge { .. } => AnalyzeError::Memory { source, memory_bytes },
-            other => AnalyzeError::Read(other),
-        })?;
+        let file = file.map_err(|error| AnalyzeError::of(error, memory_bytes))?;
         Self::of(path, file, settings.spacing_m)
     }
 
@@ -69,6 +66,14 @@ impl Terrain {
             unit,
             notes,
         })
+    }
+}
+
+impl Terrain {
+    /// The level of the sea, if heights lie on both sides of it.
+    pub fn sea_m(&self) -> Option<f64> {
+        let any = |test: fn(&f64) -> bool| self.heights.iter().any(test);
+        (any(|height| *height < 0.0) && any(|height| *height > 0.0)).then_some(0.0)
     }
 }
 

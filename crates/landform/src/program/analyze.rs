@@ -1,42 +1,125 @@
 //! `landform analyze`: measures of rasters and lines.
 
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
 use serde_json::{Value, json};
 
 use super::arguments::AnalyzeArguments;
-use super::{Failure, Outcome, memory, talk};
-use crate::analyze::{Settings, analyze};
+use super::{Failure, Outcome, folder, memory, talk};
+use crate::analyze::{Analysis, Settings, analyze};
 
 /// Analyses every file of the arguments; one that is wrong does not stop the others.
 pub(super) fn run(arguments: &AnalyzeArguments) -> Outcome {
     let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(Failure::Refused)?;
-    let settings = Settings { rulers: None, spacing_m: arguments.spacing_m, memory_bytes };
-    let (mut objects, mut wrong) = (Vec::new(), Vec::new());
+    let settings =
+        Settings { rulers: arguments.rulers, spacing_m: arguments.spacing_m, memory_bytes };
+    let mut results = Results::new(arguments)?;
     for path in &arguments.files {
         match analyze(path, &settings) {
-            Ok(analysis) if arguments.json => objects.push(analysis.json()),
-            Ok(analysis) => talk::say(&analysis.table())?,
-            Err(error) => {
-                let file = path.display().to_string();
-                objects.push(json!({ "file": file, "error": error.to_string() }));
-                wrong.push(error.to_string());
-            }
+            Ok(analysis) => results.take(path, &analysis)?,
+            Err(error) => results.refuse(path, error.to_string()),
         }
     }
-    if arguments.json {
-        print(objects, wrong.is_empty())?;
+    results.end()
+}
+
+/// Where results go.
+struct Results<'a> {
+    arguments: &'a AnalyzeArguments,
+    /// The output folder once it is made.
+    folder: Option<PathBuf>,
+    /// Names of files in the folder, without their endings.
+    names: BTreeSet<String>,
+    /// What `--json` prints.
+    objects: Vec<Value>,
+    /// Files that were refused, and why.
+    wrong: Vec<String>,
+}
+
+impl<'a> Results<'a> {
+    fn new(arguments: &'a AnalyzeArguments) -> Result<Self, Failure> {
+        if let Some(asked) = &arguments.output {
+            folder::check(asked, arguments.force).map_err(Failure::Refused)?;
+        }
+        let (names, objects, wrong) = (BTreeSet::new(), Vec::new(), Vec::new());
+        Ok(Self { arguments, folder: None, names, objects, wrong })
     }
-    match wrong.is_empty() {
-        true => Ok(()),
-        false => Err(Failure::Refused(wrong.join("\nerror: "))),
+
+    /// Notes that a file was refused.
+    fn refuse(&mut self, path: &Path, message: String) {
+        let file = path.display().to_string();
+        self.objects.push(json!({ "file": file, "error": &message }));
+        self.wrong.push(message);
+    }
+
+    /// Prints and writes what was found out about a file.
+    fn take(&mut self, path: &Path, analysis: &Analysis) -> Outcome {
+        match self.arguments.json {
+            true => self.objects.push(analysis.json()),
+            false => talk::say(&analysis.table())?,
+        }
+        match &self.arguments.output {
+            Some(asked) => self.write(asked, path, analysis),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the numbers and the figure of a file into the output folder.
+    fn write(&mut self, asked: &Path, path: &Path, analysis: &Analysis) -> Outcome {
+        let folder = match &self.folder {
+            Some(folder) => folder.clone(),
+            None => {
+                let made = folder::make(Some(asked), "", self.arguments.force);
+                self.folder.insert(made.map_err(Failure::Refused)?).clone()
+            }
+        };
+        let name = self.name(path);
+        let place = |ending: &str| folder.join(format!("{name}.{ending}"));
+        folder::write_json(&place("json"), &analysis.json()).map_err(Failure::Failed)?;
+        match analysis.figure() {
+            Err(error) => self.wrong.push(format!("{}: no figure: {error}", path.display())),
+            Ok(figure) => {
+                let text = [("Title", figure.title.as_str()), ("Software", SOFTWARE)];
+                for ending in ["png", "svg"] {
+                    let written = figure.write(&place(ending), &text);
+                    written.map_err(|error| Failure::Failed(error.to_string()))?;
+                }
+                if !self.arguments.json {
+                    talk::say(&format!("  {:<12} {}\n", "figure", place("png").display()))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A name for a file's results that no other file has: its own without the ending, with a
+    /// number where several files have the same.
+    fn name(&mut self, path: &Path) -> String {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let numbered = (2_u32..).map(|number| format!("{stem}-{number}"));
+        let mut names = std::iter::once(stem.clone()).chain(numbered);
+        let name = names.find(|name| !self.names.contains(name)).unwrap_or(stem);
+        self.names.insert(name.clone());
+        name
+    }
+
+    /// Prints one file's object as it is and several in an array, and says what was refused.
+    fn end(mut self) -> Outcome {
+        let value = match self.objects.len() {
+            _ if !self.arguments.json => None,
+            1 => self.objects.pop().filter(|_| self.wrong.is_empty()),
+            _ => Some(Value::Array(self.objects)),
+        };
+        if let Some(value) = value {
+            talk::say(&(serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"))?;
+        }
+        match self.wrong.is_empty() {
+            true => Ok(()),
+            false => Err(Failure::Refused(self.wrong.join("\nerror: "))),
+        }
     }
 }
 
-/// Prints one file's object as it is, and several in an array.
-fn print(mut objects: Vec<Value>, good: bool) -> Outcome {
-    let value = match objects.len() {
-        1 if good => objects.remove(0),
-        1 => return Ok(()),
-        _ => Value::Array(objects),
-    };
-    talk::say(&(serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"))
-}
+/// What made the figures.
+const SOFTWARE: &str = concat!("landform ", env!("CARGO_PKG_VERSION"));

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use landform_analysis::ScaleRange;
 
 /// Agents that erode landforms: run scenarios, look at the results.
 #[derive(Parser)]
@@ -59,6 +60,8 @@ pub(crate) enum Command {
     View(ViewArguments),
     /// Measure rasters and lines: spectra, hypsometry, fractal dimensions, slopes, drainage
     #[command(after_help = "Examples:\n  landform analyze dem.tif\n  \
+        landform analyze dem.tif -o out/dem\n  \
+        landform analyze coast.csv --rulers 2km..100km\n  \
         landform analyze --json dem.tif > dem.json\n\n\
         With --json one file gives an object, several give an array in their order.")]
     Analyze(AnalyzeArguments),
@@ -243,12 +246,21 @@ pub(crate) struct ReproduceArguments {
 
 #[derive(Args)]
 pub(crate) struct AnalyzeArguments {
-    /// Rasters (.tif, .asc, .npy)
+    /// Rasters (.tif, .asc, .npy) and lines (.csv, .geojson)
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// Print JSON instead of a table
     #[arg(long)]
     pub json: bool,
+    /// Rulers of dividers and sides of boxes, for lines: 2km..100km or 500m..20km
+    #[arg(long, value_name = "FROM..TO")]
+    pub rulers: Option<ScaleRange>,
+    /// Folder for a figure (PNG and SVG) and the JSON of each file
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Write into an existing folder; files of the same names are replaced
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Side of the cells in metres, for rasters that do not say it or say something else
     #[arg(long, value_name = "METRES")]
     pub spacing_m: Option<f64>,

@@ -18,16 +18,8 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
         Some(folder) => folder.to_owned(),
         None => fresh(stem),
     };
+    check(&folder, force)?;
     let shown = folder.display();
-    if folder.is_file() {
-        return Err(format!("the output folder {shown} is a file; name another with -o"));
-    }
-    if !is_empty(&folder) && !force {
-        return Err(format!(
-            "the output folder {shown} exists and is not empty; name another with -o, or use \
-             --force to replace files of the same names"
-        ));
-    }
     fs::create_dir_all(&folder)
         .map_err(|error| format!("cannot make the output folder {shown}: {error}"))?;
     let probe = folder.join(PROBE);
@@ -35,6 +27,21 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
         .and_then(|()| fs::remove_file(&probe))
         .map_err(|error| format!("cannot write into the output folder {shown}: {error}"))?;
     Ok(folder)
+}
+
+/// Refuses a file, and without `force` a folder that holds something.
+pub(super) fn check(folder: &Path, force: bool) -> Result<(), String> {
+    let shown = folder.display();
+    if folder.is_file() {
+        return Err(format!("the output folder {shown} is a file; name another with -o"));
+    }
+    if !is_empty(folder) && !force {
+        return Err(format!(
+            "the output folder {shown} exists and is not empty; name another with -o, or use \
+             --force to replace files of the same names"
+        ));
+    }
+    Ok(())
 }
 
 /// Whether nothing is seen in a folder, or there is none.
