@@ -66,7 +66,7 @@ const PINS: [Pins; 8] = [
         depressions: [979.0, 0.6244226, 1.8801000e+07, 46.0000],
         family: [0.0547, 0.2758, 0.0433],
         largest_basin_km2: 323.3709,
-        laws: [0.5026, 0.4814, 0.2527],
+        laws: [0.5016, 0.4814, 0.2527],
     },
     Pins {
         file: "meghalaya_escarpment_50m.tif",
@@ -81,7 +81,7 @@ const PINS: [Pins; 8] = [
         depressions: [6439.0, 4.7295000, 5.0491206e+08, 103.0000],
         family: [0.9999, 0.6066, 0.0536],
         largest_basin_km2: 475.7765,
-        laws: [0.4872, 0.5334, 0.1325],
+        laws: [0.4839, 0.5334, 0.1325],
     },
     Pins {
         file: "jasper_athabasca_100m.asc",
@@ -96,7 +96,7 @@ const PINS: [Pins; 8] = [
         depressions: [593.0, 1.4112500, 9.2760000e+07, 81.0000],
         family: [0.0141, 0.3224, 0.0223],
         largest_basin_km2: 752.4900,
-        laws: [0.4924, 0.5006, 0.2305],
+        laws: [0.4856, 0.5006, 0.2305],
     },
     Pins {
         file: "yosemite_valley_1arcsec.tif",
@@ -111,7 +111,7 @@ const PINS: [Pins; 8] = [
         depressions: [641.0, 0.9068299, 9.1853472e+06, 13.0000],
         family: [0.0370, 0.1992, 0.0408],
         largest_basin_km2: 602.7776,
-        laws: [0.5138, 0.4350, 0.2343],
+        laws: [0.5156, 0.4350, 0.2343],
     },
     Pins {
         file: "st_helens_crater_10m.asc",
@@ -126,7 +126,7 @@ const PINS: [Pins; 8] = [
         depressions: [108.0, 0.1814435, 3.2150000e+04, 7.9000],
         family: [0.5858, 0.6791, 0.0261],
         largest_basin_km2: 4.7466,
-        laws: [0.6622, 0.4081, 0.1816],
+        laws: [0.6570, 0.4081, 0.1816],
     },
     Pins {
         file: "zuid_kennemerland_dunes_2m.asc",
@@ -141,7 +141,7 @@ const PINS: [Pins; 8] = [
         depressions: [118.0, 9.6814101, 9.5227280e+04, 6.8800],
         family: [0.3842, 1.1568, 0.0196],
         largest_basin_km2: 0.1974,
-        laws: [0.7634, 0.3243, -0.0360],
+        laws: [0.7808, 0.3243, -0.0360],
     },
     Pins {
         file: "monterey_bay_topobathy.asc",
@@ -156,7 +156,7 @@ const PINS: [Pins; 8] = [
         depressions: [1407.0, 3.0233196, 1.9107785e+09, 66.5000],
         family: [0.0717, 0.1733, 0.0511],
         largest_basin_km2: 6586.5676,
-        laws: [0.5637, 0.4416, 0.1116],
+        laws: [0.5645, 0.4416, 0.1116],
     },
     Pins {
         file: "hawaii_topobathy_2min.asc",
@@ -171,7 +171,7 @@ const PINS: [Pins; 8] = [
         depressions: [1026.0, 20.9150118, 1.9149863e+13, 1022.0000],
         family: [0.0073, 0.4011, 0.0280],
         largest_basin_km2: 177274.2713,
-        laws: [0.5906, 0.4808, 0.2626],
+        laws: [0.5812, 0.4808, 0.2626],
     },
 ];
 
@@ -233,9 +233,9 @@ fn compare(pins: &Pins, found: &Value) {
     near("/depressions/volume", volume, 1e-7 * volume);
     near("/depressions/deepest", deepest, 1e-4);
     near("/drainage/largest_basin_m2", 1e6 * pins.largest_basin_km2, 1e3 * pins.largest_basin_km2);
-    near("/drainage/exceedance/exponent", pins.laws[0], 0.012);
+    near("/drainage/exceedance/exponent", pins.laws[0], 0.003);
     near("/drainage/hack/exponent", pins.laws[1], 0.004);
-    near("/drainage/slope_area/concavity/exponent", pins.laws[2], 0.012);
+    near("/drainage/slope_area/concavity/exponent", pins.laws[2], 0.009);
 }
 
 fn write(scratch: &Scratch, name: &str, raster: &Raster) {
@@ -359,7 +359,8 @@ fn cells_that_are_oblong_or_degrees_or_unknown_have_their_size() {
     assert_eq!(bare["cell_m"], serde_json::json!([1.0, 1.0]));
     assert!(notes(&bare).contains("--spacing-m"), "{bare}");
     let told = object(&scratch, "bare.npy --spacing-m 25");
-    assert_eq!((&told["cell_m"], notes(&told)), (&serde_json::json!([25.0, 25.0]), String::new()));
+    assert_eq!(told["cell_m"], serde_json::json!([25.0, 25.0]));
+    assert!(!notes(&told).contains("--spacing-m"), "{told}");
 }
 
 #[test]
@@ -368,8 +369,14 @@ fn wrong_rasters_and_arguments_are_refused() {
     write(&scratch, "good.tif", &hills(64, 64));
     scratch.write("text.tif", "no TIFF at all");
     scratch.write("picture.jpg", [0xff, 0xd8, 0xff, 0xe0]);
-    scratch.write("gone.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\nnodata_value -1\n-1 -1\n");
-    scratch.write("huge.asc", "ncols 20000\nnrows 20000\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n");
+    scratch.write(
+        "gone.asc",
+        "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\nnodata_value -1\n-1 -1\n",
+    );
+    scratch.write(
+        "huge.asc",
+        "ncols 20000\nnrows 20000\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n",
+    );
     std::fs::create_dir(scratch.path("folder.tif")).unwrap();
     for (line, parts) in [
         ("text.tif", &["text.tif"][..]),

@@ -155,7 +155,18 @@ mod commands {
         for name in ["dem.tif", "my_dem.tif"] {
             write_hills(&scratch.path(name), 60, 44);
         }
+        scratch.write("coast.csv", coast());
         scratch
+    }
+
+    /// A round island, 220 km across, with bays.
+    fn coast() -> String {
+        let place = |index: u32| {
+            let angle = f64::from(index % 3000) * std::f64::consts::TAU / 3000.0;
+            let radius = 1.0 + 0.1 * (17.0 * angle).sin();
+            format!("{},{}\n", radius * angle.cos(), radius * angle.sin())
+        };
+        (0..=3000).map(place).fold("lon,lat\n".to_owned(), |text, line| text + &line)
     }
 
     /// Puts the scenario above a call into the file that the call names, if there is none.

@@ -5,7 +5,7 @@
 //! A [`Spectrum`] holds the amplitude of every wave of a height field. From it come
 //! - [`SpectralFit`]: the two numbers that the thesis prints under each of its spectral plots
 //!   (section 2.1.6), with scale-free ones beside them;
-//! - [`Spectrum::triple_log_plot`]: the picture that those numbers belong to;
+//! - [`TripleLogPlot`]: the picture that those numbers belong to;
 //! - [`RadialSpectrum`]: power by frequency in logarithmic bins and the exponent beta of its
 //!   fall-off, which measures the Hurst exponent without bias.
 //!
@@ -40,6 +40,7 @@ mod projection;
 mod radial;
 mod spectrum;
 mod summary;
+mod triple_log;
 
 pub use detrend::{remove_plane, taper};
 pub use dimension::{
@@ -57,3 +58,4 @@ pub use projection::on_plane;
 pub use radial::{PowerBin, RadialExponent, RadialSpectrum};
 pub use spectrum::{AnalysisError, Spectrum, Wave};
 pub use summary::SpectralSummary;
+pub use triple_log::TripleLogPlot;

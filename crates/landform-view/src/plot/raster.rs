@@ -82,8 +82,13 @@ impl Page<'_> {
         let corners = [[left, top], [right, bottom]];
         let covered = |place: f32, low: f32, high: f32, size: usize| {
             let along = |at: f32| ((at - low) / (high - low) * size as f32).clamp(0.0, size as f32);
-            let first = (along(place).round() as usize).min(size - 1);
-            first..(along(place + 1.0).round() as usize).clamp(first + 1, size)
+            let [start, end] = [along(place), along(place + 1.0)];
+            // A pixel within one of the picture's takes that one.
+            let first =
+                if end - start < 1.0 { (0.5 * (start + end)).floor() } else { start.round() };
+            let first = (first as usize).min(size - 1);
+            let last = if end - start < 1.0 { first + 1 } else { end.round() as usize };
+            first..last.clamp(first + 1, size)
         };
         for (column, row) in Window::around(&corners, 0.0, self).pixels() {
             let across = covered(column as f32, left, right, picture.width);

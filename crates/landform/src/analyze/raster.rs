@@ -1,10 +1,10 @@
 //! Everything that is measured of a raster.
 
 use landform_analysis::hydrology::{Depressions, Drainage, FlowDirections, fill_depressions};
-use landform_analysis::{Dimension, HypsometricCurve, Hypsometry, variogram_dimension};
+use landform_analysis::{Dimension, HypsometricCurve, Hypsometry, Spectrum, variogram_dimension};
 use serde::Serialize;
 
-use super::figure::{Density, Streams};
+use super::figure::Streams;
 use super::notes::Notes;
 use super::{Shore, SlopeQuantiles, Spectral, Terrain, Window, shore};
 
@@ -27,8 +27,8 @@ pub struct RasterAnalysis {
 pub(super) struct Drawn {
     /// The hypsometric curve.
     pub curve: Option<HypsometricCurve>,
-    /// The plot of the spectrum.
-    pub density: Option<Density>,
+    /// The prepared spectrum.
+    pub spectrum: Option<Spectrum>,
     /// Streams.
     pub streams: Streams,
 }
@@ -112,13 +112,15 @@ impl RasterAnalysis {
         let missing = heights.iter().filter(|height| height.is_nan()).count();
         let curve = notes.found("hypsometry", HypsometricCurve::new(heights));
         let window = complete_window(&terrain, missing, &mut notes);
+        let water = Water::measure(&terrain, &mut notes);
+        let dimension = dimensions(&terrain, window, &mut notes);
+        let slope_deg = slope(&terrain, &mut notes);
+        // Last, because it takes the most memory and stays.
         let spectrum = window.and_then(|window| {
             let part = window.cut(heights, grid.columns());
             Spectral::measure(&grid, window, part, &mut notes)
         });
-        let (spectrum, density) =
-            spectrum.map(|(found, plot)| (found, Density::new(&plot))).unzip();
-        let water = Water::measure(&terrain, &mut notes);
+        let (found, spectrum) = spectrum.unzip();
         let numbers = RasterNumbers {
             file: terrain.file.clone(),
             kind: "raster",
@@ -128,14 +130,14 @@ impl RasterAnalysis {
             no_data_percent: 100.0 * missing as f64 / heights.len() as f64,
             heights: Heights::of(heights),
             hypsometry: curve.as_ref().map(Hypsometry::new),
-            spectrum,
-            dimension: dimensions(&terrain, window, &mut notes),
-            slope_deg: slope(&terrain, &mut notes),
+            spectrum: found,
+            dimension,
+            slope_deg,
             depressions: water.depressions,
             drainage: water.drainage,
             notes: notes.into_inner(),
         };
-        let drawn = Drawn { curve, density, streams: water.streams };
+        let drawn = Drawn { curve, spectrum, streams: water.streams };
         Self { numbers, terrain, drawn }
     }
 }

@@ -15,7 +15,7 @@ pub use animation::Animation;
 pub use field_file::FieldFile;
 pub use field_series::FieldSeries;
 pub use landform_sim::output::When;
-pub use look::{Density, Flat, Look, Perspective, Relief};
+pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;

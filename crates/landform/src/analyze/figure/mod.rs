@@ -9,7 +9,6 @@ mod view;
 
 use landform_view::plot::{Axis, Note, Panel};
 
-pub(super) use density::Density;
 pub(super) use lines::figure as lines_figure;
 pub(super) use raster::figure as raster_figure;
 pub(super) use streams::Streams;

@@ -7,19 +7,19 @@ use landform_view::plot::{Axis, Figure, Line, Panel, Point, Series};
 use super::super::raster::{Drawn, RasterAnalysis};
 use super::super::table::words;
 use super::view::Pictured;
-use super::{PANEL, PIXELS_PER_UNIT, empty, map, title};
+use super::{PANEL, PIXELS_PER_UNIT, density, empty, map, title};
 
 /// Draws map, view, spectrum and hypsometric curve; a panel that cannot be drawn says so.
 pub(in crate::analyze) fn figure(analysis: &RasterAnalysis) -> Result<Figure, ViewError> {
     let RasterAnalysis { numbers, terrain, drawn } = analysis;
-    let Drawn { curve, density, streams } = drawn;
+    let Drawn { curve, spectrum, streams } = drawn;
     let pictured = Pictured::new(terrain);
     let [map, view] = match &pictured {
         Some(pictured) => [map::map(terrain, pictured, streams)?, map::view(pictured)?],
         None => ["map", "view"].map(|name| empty(name, "too narrow to be drawn")),
     };
-    let spectrum = match (density, &numbers.spectrum) {
-        (Some(density), Some(spectrum)) => density.panel(&spectrum.prepared)?,
+    let spectrum = match (spectrum, &numbers.spectrum) {
+        (Some(spectrum), Some(found)) => density::panel(spectrum, &found.prepared)?,
         _ => empty("spectral density", "see the notes of the analysis"),
     };
     let curve = match (curve, &numbers.hypsometry) {

@@ -1,6 +1,6 @@
 //! Colours by value, and spectra drawn in them.
 
-use landform_analysis::{SpectralFit, Spectrum};
+use landform_analysis::{SpectralFit, Spectrum, TripleLogPlot};
 use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_view::flat::{self, ColourBar};
 use landform_view::{ColourMap, Image, ViewError};
@@ -49,6 +49,16 @@ impl Flat {
     }
 }
 
+/// How wave numbers are spread over a picture of a spectrum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum DensityAxes {
+    /// Equal differences are equal lengths: a pixel, or some, for each wave.
+    #[default]
+    Linear,
+    /// Equal ratios are equal lengths, on both sides of 0: the triple-log plot of the thesis.
+    Logarithmic,
+}
+
 /// The spectral density of a field: logarithm of the amplitude of each wave, frequency zero in
 /// the middle (thesis, figure 2.3).
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -62,11 +72,14 @@ pub struct Density {
     /// Amplitudes below this are drawn as this.
     #[schemars(range(min = 1e-300, max = 1e300), extend("x-source" = "thesis 2.1.6"))]
     pub floor: f64,
+    /// How wave numbers are spread; on logarithmic axes the picture is a square of as many pixels.
+    pub axes: DensityAxes,
 }
 
 impl Default for Density {
     fn default() -> Self {
-        Self { colours: "batlow".to_owned(), pixels_per_node: 2, floor: SpectralFit::FLOOR }
+        let (floor, axes) = (SpectralFit::FLOOR, DensityAxes::Linear);
+        Self { colours: "batlow".to_owned(), pixels_per_node: 2, floor, axes }
     }
 }
 
@@ -77,16 +90,27 @@ impl Density {
         [width, height]: [usize; 2],
     ) -> Result<Image, ViewError> {
         let colours = ColourMap::named(&self.colours)?;
-        let logarithms = logarithms(values, [width, height], self.floor);
-        flat::colour_field(&logarithms, width, height, colours, None, self.pixels_per_node)
+        let Some(spectrum) = spectrum(values, [width, height]) else {
+            let grey = vec![f64::NAN; values.len()];
+            return flat::colour_field(&grey, width, height, colours, None, self.pixels_per_node);
+        };
+        match self.axes {
+            DensityAxes::Linear => {
+                let logarithms = spectrum.triple_log_plot(self.floor);
+                flat::colour_field(&logarithms, width, height, colours, None, self.pixels_per_node)
+            }
+            DensityAxes::Logarithmic => {
+                let nodes = (width as f64 * height as f64).sqrt();
+                let side = (nodes * self.pixels_per_node as f64).round() as usize;
+                let plot = TripleLogPlot::new(&spectrum, side, self.floor);
+                flat::colour_field(&plot.logarithms, side, side, colours, None, 1)
+            }
+        }
     }
 }
 
-/// Natural logarithms of the amplitudes, frequency zero in the middle; those of a field without
-/// a spectrum (one that is not finite) are grey.
-fn logarithms(values: &[f64], size: [usize; 2], floor: f64) -> Vec<f64> {
-    let lattice = Lattice::plane(size, 1.0, Connectivity::Four, [Boundary::Open; 2]).ok();
-    lattice
-        .and_then(|lattice| Spectrum::new(&lattice, values).ok())
-        .map_or_else(|| vec![f64::NAN; values.len()], |spectrum| spectrum.triple_log_plot(floor))
+/// The spectrum of a field; none of one that is not finite.
+fn spectrum(values: &[f64], size: [usize; 2]) -> Option<Spectrum> {
+    let lattice = Lattice::plane(size, 1.0, Connectivity::Four, [Boundary::Open; 2]).ok()?;
+    Spectrum::new(&lattice, values).ok()
 }

@@ -5,7 +5,7 @@ mod perspective;
 mod relief;
 mod text;
 
-pub use flat::{Density, Flat};
+pub use flat::{Density, DensityAxes, Flat};
 pub use perspective::Perspective;
 pub use relief::Relief;
 
