@@ -208,14 +208,16 @@ fn places<'t>(
 
 /// The labels of both axes; `numbers` is the width of those beside the vertical one.
 fn labels(panel: &Panel, frame: Frame, numbers: f32, drawing: &mut Drawing) {
-    let [left, top, right, bottom] = frame;
+    let [left, _, right, bottom] = frame;
     let middle = [0.5 * (left + right), bottom + 2.8 * SMALL];
     drawing.words(&panel.x.label, middle, SMALL, Anchor::Middle);
-    drawing.add(Shape::Words(Words {
-        text: panel.y.label.clone(),
-        at: [left - numbers - 8.0 - 0.9 * SMALL, 0.5 * (top + bottom)],
-        size: SMALL,
-        anchor: Anchor::Middle,
-        upward: true,
-    }));
+    beside(&panel.y.label, left - numbers - 8.0 - 0.9 * SMALL, frame, drawing);
+}
+
+/// Words that run upwards beside a plot, at its middle, or from its top down where they are longer.
+pub(super) fn beside(text: &str, x: f32, [_, top, _, bottom]: Frame, drawing: &mut Drawing) {
+    let half = 0.5 * text::width(text, SMALL) as f32;
+    let at = [x, (0.5 * (top + bottom)).max(top + half)];
+    let (text, anchor) = (text.to_owned(), Anchor::Middle);
+    drawing.add(Shape::Words(Words { text, at, size: SMALL, anchor, upward: true }));
 }

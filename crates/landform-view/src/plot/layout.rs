@@ -4,6 +4,7 @@ use super::axes::{Axes, SMALL};
 use super::drawing::{Anchor, Drawing, Frame};
 use super::figure::{Figure, Panel};
 use crate::montage::letter_name;
+use crate::text;
 
 /// Height of the letters of titles.
 const TITLE: f32 = 14.0;
@@ -20,7 +21,7 @@ pub(super) fn draw(figure: &Figure) -> Drawing {
     let mut drawing = Drawing { size, ..Drawing::default() };
     drawing.words(&figure.title, [0.5 * size[0], 1.2 * TITLE], TITLE, Anchor::Middle);
     let axes: Vec<Axes> =
-        figure.panels.iter().map(|panel| Axes::of(panel, figure.panel_size)).collect();
+        figure.panels.iter().map(|panel| axes(panel, figure.panel_size)).collect();
     // Panels below each other begin at one line.
     let widest = |column: usize| {
         let below = axes.iter().skip(column).step_by(columns);
@@ -42,10 +43,23 @@ pub(super) fn draw(figure: &Figure) -> Drawing {
         if let Some(colours) = &panel.colours {
             colours.draw(frame, &mut drawing);
         }
-        let below = [0.5 * (room[0] + room[2]), corner[1] + height - 0.9 * SMALL];
+        // Below the plot, but not beyond the panel however narrow the plot is.
+        let half = 0.5 * text::width(&panel.caption, SMALL) as f32;
+        let middle = (0.5 * (frame[0] + frame[2])).max(corner[0] + GAP + half);
+        let below = [middle, corner[1] + height - 0.9 * SMALL];
         drawing.words(&panel.caption, below, SMALL, Anchor::Middle);
     }
     drawing
+}
+
+/// The axes of a panel of a size, with as many numbers as its plot has room for.
+fn axes(panel: &Panel, [width, height]: [f64; 2]) -> Axes {
+    let axes = Axes::of(panel, [width, height]);
+    if !panel.equal {
+        return axes;
+    }
+    let [left, top, right, bottom] = fitted([0.0, 0.0, width as f32, height as f32], axes.aspect());
+    Axes::of(panel, [(right - left).into(), (bottom - top).into()])
 }
 
 /// The frame that a plot inside its panel may have, with room for numbers, labels, a title, a
@@ -73,10 +87,10 @@ fn room(
 fn fitted([left, top, right, bottom]: Frame, aspect: f64) -> Frame {
     let [width, height] = [right - left, bottom - top];
     let aspect = if aspect.is_finite() && aspect > 0.0 { aspect as f32 } else { 1.0 };
-    // Nothing is thinner than a hundredth of its length, however long the map is.
+    // Nothing is thinner than a tenth of its room, however long the map is.
     let [across, down] = match width / height > aspect {
-        true => [(height * aspect).max(0.01 * height), height],
-        false => [width, (width / aspect).max(0.01 * width)],
+        true => [(height * aspect).max(0.1 * width), height],
+        false => [width, (width / aspect).max(0.1 * height)],
     };
     [left, top, left + across, top + down]
 }

@@ -1,8 +1,8 @@
 //! Pictures between the axes of a panel, and what their colours mean.
 
-use super::axes::SMALL;
+use super::axes::{SMALL, beside};
 use super::axis::Axis;
-use super::drawing::{Anchor, Drawing, Frame, INK, Shape, Words};
+use super::drawing::{Anchor, Drawing, Frame, INK};
 use super::ticks::ticks;
 use crate::shade::Ground;
 use crate::{Image, text};
@@ -60,7 +60,8 @@ impl ColourScale {
     }
 
     /// Draws the bar to the right of a plot.
-    pub(super) fn draw(&self, [_, top, right, bottom]: Frame, drawing: &mut Drawing) {
+    pub(super) fn draw(&self, frame: Frame, drawing: &mut Drawing) {
+        let [_, top, right, bottom] = frame;
         let left = right + GAP;
         let height = bottom - top;
         let [low, high] = self.range;
@@ -78,13 +79,7 @@ impl ColourScale {
             drawing.line([left + BAR, y], [left + BAR + 4.0, y], 1.0, INK);
             drawing.words(&text, [left + BAR + 8.0, y], SMALL, Anchor::Start);
         }
-        let beside = left + BAR + 8.0 + self.numbers_width(height) + 0.9 * SMALL;
-        drawing.add(Shape::Words(Words {
-            text: self.label.clone(),
-            at: [beside, 0.5 * (top + bottom)],
-            size: SMALL,
-            anchor: Anchor::Middle,
-            upward: true,
-        }));
+        let x = left + BAR + 8.0 + self.numbers_width(height) + 0.9 * SMALL;
+        beside(&self.label, x, frame, drawing);
     }
 }

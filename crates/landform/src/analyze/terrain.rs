@@ -10,7 +10,7 @@ use super::{AnalyzeError, Settings};
 
 /// Memory that the analysis of a raster takes at most, in bytes a cell, the raster itself
 /// included; measured, and rounded up.
-pub const BYTES_A_CELL: u64 = 112;
+pub const BYTES_A_CELL: u64 = 80;
 
 /// Heights of a raster file and the size of its cells on the ground.
 #[derive(Clone, Debug)]

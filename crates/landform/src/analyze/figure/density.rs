@@ -42,5 +42,5 @@ fn caption(numbers: &SpectralNumbers) -> String {
     if let (Some(beta), Some(error)) = (numbers.beta, numbers.beta_error) {
         parts.push(format!("β {beta:.2} ± {error:.2}"));
     }
-    parts.join(", ")
+    parts.join(", ").replace('-', "\u{2212}")
 }
