@@ -97,13 +97,14 @@ impl Octave {
     }
 
     /// The noise at `positions` in metres, moved by `translation` cells. `points` is scratch.
-    pub fn row(
+    pub fn fill(
         &self,
         positions: &[[f64; 2]],
         translation: [f64; 2],
         points: &mut [[f64; 2]],
         values: &mut [f64],
     ) {
+        let (points, values) = (&mut points[..positions.len()], &mut values[..positions.len()]);
         let shift = [0, 1].map(|axis| self.shift[axis] + translation[axis]);
         let [sine, cosine] = self.turn;
         for (point, &[x, y]) in points.iter_mut().zip(positions) {
@@ -111,9 +112,9 @@ impl Octave {
             *point = [0, 1].map(|axis| turned[axis] * self.scale[axis] + shift[axis]);
         }
         match &self.noise {
-            Noise::Gradient(noise) => noise.row(points, values),
-            Noise::Simplex(noise) => noise.row(points, values),
-            Noise::Cellular(noise) => noise.row(points, values),
+            Noise::Gradient(noise) => noise.fill(points, values),
+            Noise::Simplex(noise) => noise.fill(points, values),
+            Noise::Cellular(noise) => noise.fill(points, values),
         }
     }
 }

@@ -1,7 +1,9 @@
-//! What the noises share: cells with random numbers of their own, and rows of samples that
-//! remember the cell of the sample before.
+//! What the noises share: cells with random numbers of their own, and how their values come to
+//! many points.
 
 use landform_sim::random::{RandomStream, unit};
+
+use super::patch::Patch;
 
 /// The random numbers of the square cells of one octave, and where they start to repeat.
 #[derive(Clone, Copy, Debug)]
@@ -55,32 +57,55 @@ fn mix(mut bits: u64) -> u64 {
 }
 
 /// A noise made of square cells, between -1 and 1.
-pub(super) trait CellNoise {
+pub(super) trait CellNoise: Sized {
+    /// What is random at a corner of the cells.
+    type Corner: Copy;
     /// What is the same for all points of a cell.
     type Cell;
+    /// The corners that a cell depends on: the first and the last along either axis, from its
+    /// south-western one.
+    const CORNERS: [i64; 2];
 
     /// A point in units of the wavelength, in the coordinates in which cells are unit squares.
+    /// Both grow with both of the point's.
     #[inline]
     fn skewed(&self, point: [f64; 2]) -> [f64; 2] {
         point
     }
 
-    /// The cell in `column` and `row`.
-    fn cell(&self, column: i64, row: i64) -> Self::Cell;
+    /// The south-western corner of the cell in `column` and `row`.
+    fn corner(&self, column: i64, row: i64) -> Self::Corner;
+
+    /// A cell, from the corners so many columns and rows from its own.
+    fn cell(&self, corner: impl Fn(i64, i64) -> Self::Corner) -> Self::Cell;
 
     /// The noise at a place in a cell, 0 to 1 along either skewed axis.
     fn value(&self, cell: &Self::Cell, place: [f64; 2]) -> f64;
 
-    /// The noise at one point: the readable reference of [`CellNoise::row`].
+    /// The noise at one point: the readable reference of [`CellNoise::fill`].
     #[cfg(test)]
     fn at(&self, point: [f64; 2]) -> f64 {
         let [u, v] = self.skewed(point);
         let [column, row] = [u.floor(), v.floor()];
-        self.value(&self.cell(column as i64, row as i64), [u - column, v - row])
+        self.value(&self.cell_at([column, row]), [u - column, v - row])
     }
 
-    /// The noise at many points. Neighbours mostly share a cell, which is made once.
-    fn row(&self, points: &[[f64; 2]], values: &mut [f64]) {
+    /// The cell whose south-western corner is given.
+    fn cell_at(&self, [column, row]: [f64; 2]) -> Self::Cell {
+        self.cell(|east, north| self.corner(column as i64 + east, row as i64 + north))
+    }
+
+    /// The noise at many points: with the same bits, and fast where they are close together.
+    fn fill(&self, points: &[[f64; 2]], values: &mut [f64]) {
+        match Patch::over(self, points) {
+            Some(patch) => patch.fill(points, values),
+            None => self.fill_in_turn(points, values),
+        }
+    }
+
+    /// The noise at points that may be far from each other, such as those of a row. Neighbours
+    /// mostly share a cell, which is made once.
+    fn fill_in_turn(&self, points: &[[f64; 2]], values: &mut [f64]) {
         let mut known = [f64::NAN; 2];
         let mut cell = None;
         for (value, &point) in values.iter_mut().zip(points) {
@@ -90,7 +115,7 @@ pub(super) trait CellNoise {
                 known = corner;
                 cell = None;
             }
-            let cell = cell.get_or_insert_with(|| self.cell(corner[0] as i64, corner[1] as i64));
+            let cell = cell.get_or_insert_with(|| self.cell_at(corner));
             *value = self.value(cell, [u - corner[0], v - corner[1]]);
         }
     }

@@ -26,15 +26,25 @@ const FARTHEST_NEAREST: f64 = 2.0;
 const FARTHEST_SECOND: f64 = 2.5;
 
 impl CellNoise for CellularNoise {
+    /// The place of the cell's point from its corner.
+    type Corner = [f64; 2];
     /// The points of 5 x 5 cells, from the corner of the middle one. Others are too far away to
     /// be among the nearest two.
     type Cell = [[f64; 2]; 25];
+    const CORNERS: [i64; 2] = [-2, 2];
 
-    fn cell(&self, column: i64, row: i64) -> Self::Cell {
+    #[inline]
+    fn corner(&self, column: i64, row: i64) -> [f64; 2] {
+        let bits = self.cells.bits(column, row);
+        [unit(bits as u32), unit((bits >> 32) as u32)]
+    }
+
+    #[inline]
+    fn cell(&self, corner: impl Fn(i64, i64) -> [f64; 2]) -> Self::Cell {
         std::array::from_fn(|number| {
             let [east, north] = [number as i64 % 5 - 2, number as i64 / 5 - 2];
-            let bits = self.cells.bits(column + east, row + north);
-            [east as f64 + unit(bits as u32), north as f64 + unit((bits >> 32) as u32)]
+            let [x, y] = corner(east, north);
+            [east as f64 + x, north as f64 + y]
         })
     }
 
@@ -44,8 +54,8 @@ impl CellNoise for CellularNoise {
         for point in points {
             let [east, north] = [point[0] - x, point[1] - y];
             let squared = east * east + north * north;
-            second = second.min(nearest.max(squared));
-            nearest = nearest.min(squared);
+            second = lesser(second, if nearest > squared { nearest } else { squared });
+            nearest = lesser(nearest, squared);
         }
         let (distance, farthest) = match self.feature {
             CellularFeature::Nearest => (nearest.sqrt(), FARTHEST_NEAREST),
@@ -54,4 +64,10 @@ impl CellNoise for CellularNoise {
         };
         2.0 * distance / farthest.sqrt() - 1.0
     }
+}
+
+/// `f64::min` of numbers, which is an instruction; with what is no number in mind it is several.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }

@@ -47,24 +47,39 @@ pub(super) struct GradientNoise {
 }
 
 impl CellNoise for GradientNoise {
-    type Cell = [[f64; 2]; 4];
+    type Corner = [f64; 2];
+    /// Four planes as their heights at the south-western corner and slopes to the east and north:
+    /// that of this corner, what it changes by to the east, to the north, and what the change to
+    /// the east changes by to the north.
+    type Cell = [[f64; 3]; 4];
+    const CORNERS: [i64; 2] = [0, 1];
 
-    fn cell(&self, column: i64, row: i64) -> Self::Cell {
-        CORNERS
-            .map(|[east, north]| self.directions.pick(self.cells.bits(column + east, row + north)))
+    #[inline]
+    fn corner(&self, column: i64, row: i64) -> [f64; 2] {
+        self.directions.pick(self.cells.bits(column, row))
     }
 
     #[inline]
-    fn value(&self, gradients: &Self::Cell, [x, y]: [f64; 2]) -> f64 {
+    fn cell(&self, corner: impl Fn(i64, i64) -> [f64; 2]) -> Self::Cell {
+        let [south_west, south_east, north_west, north_east] = CORNERS.map(|[x, y]| {
+            // Four unit gradients that point at the middle give the largest value, 1 / sqrt 2.
+            let [east, north] = corner(x, y).map(|slope| SQRT_2 * slope);
+            [-east * x as f64 - north * y as f64, east, north]
+        });
+        let change = |from: [f64; 3], to: [f64; 3]| [0, 1, 2].map(|part| to[part] - from[part]);
+        let south = change(south_west, south_east);
+        let north = change(north_west, north_east);
+        [south_west, south, change(south_west, north_west), change(south, north)]
+    }
+
+    #[inline(always)]
+    fn value(&self, planes: &Self::Cell, [x, y]: [f64; 2]) -> f64 {
         let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-        let [south_west, south_east, north_west, north_east] = *gradients;
+        let plane = |[height, east, north]: [f64; 3]| height + east * x + north * y;
         let [across, up] = [fade(x), fade(y)];
-        let blend = |from: f64, to: f64, share: f64| from + share * (to - from);
-        let south = blend(plane(south_west, [x, y]), plane(south_east, [x - 1.0, y]), across);
-        let north =
-            blend(plane(north_west, [x, y - 1.0]), plane(north_east, [x - 1.0, y - 1.0]), across);
-        // Four unit gradients that point at the middle give the largest value, 1 / sqrt 2.
-        SQRT_2 * blend(south, north, up)
+        let south = plane(planes[0]) + across * plane(planes[1]);
+        let rise = plane(planes[2]) + across * plane(planes[3]);
+        south + up * rise
     }
 }
 
@@ -85,24 +100,29 @@ const REACH_SQUARED: f64 = 0.8;
 const SIMPLEX_SCALE: f64 = 1.0 / (0.55 * 0.55 * 0.55 * 0.55);
 
 impl CellNoise for SimplexNoise {
+    type Corner = [f64; 2];
     type Cell = [[f64; 2]; 4];
+    const CORNERS: [i64; 2] = [0, 1];
 
     #[inline]
     fn skewed(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x + 0.5 * y, y]
     }
 
-    fn cell(&self, column: i64, row: i64) -> Self::Cell {
+    #[inline]
+    fn corner(&self, column: i64, row: i64) -> [f64; 2] {
         let [columns, rows] = self.cells.period();
-        CORNERS.map(|[east, north]| {
-            let [column, row] = [column + east, row + north];
-            // Twice the distance east, which is whole, and which goes round without skew.
-            let half_bases = wrapped(2 * column - row, 2 * columns);
-            self.directions.pick(self.cells.hash(half_bases, wrapped(row, rows)))
-        })
+        // Twice the distance east, which is whole, and which goes round without skew.
+        let half_bases = wrapped(2 * column - row, 2 * columns);
+        self.directions.pick(self.cells.hash(half_bases, wrapped(row, rows)))
     }
 
     #[inline]
+    fn cell(&self, corner: impl Fn(i64, i64) -> [f64; 2]) -> Self::Cell {
+        CORNERS.map(|[east, north]| corner(east, north))
+    }
+
+    #[inline(always)]
     fn value(&self, gradients: &Self::Cell, [u, v]: [f64; 2]) -> f64 {
         let share = |corner: usize| {
             let [east, north] = CORNERS[corner].map(|number| number as f64);

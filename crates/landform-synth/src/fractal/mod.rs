@@ -6,6 +6,7 @@ mod cells;
 mod cellular;
 mod frame;
 mod gradient;
+mod patch;
 mod slope;
 mod surface;
 #[cfg(test)]
@@ -13,7 +14,6 @@ mod tests;
 mod warp;
 
 use landform_graph::Lattice;
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub(crate) use surface::{NoiseSurface, Scratch};
 pub(crate) use warp::WarpField;
 
 use crate::error::Checks;
-use crate::place::place_row;
+use crate::place::fill_by_tiles;
 use crate::{Generator, SynthError};
 
 /// Octaves of noise: fractional Brownian motion by noise-summing (thesis, section 2.1.5, figure
@@ -98,17 +98,9 @@ impl Generator for FractalNoise {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
         Checks("FractalNoise").plane(lattice)?;
         let surface = NoiseSurface::new(*self, &Frame::of(lattice), seed)?;
-        let width = lattice.width();
-        let mut heights = vec![0.0; lattice.node_count()];
-        let rows = heights.par_chunks_mut(width).enumerate();
-        rows.for_each_init(
-            || (Scratch::new(width), Vec::with_capacity(width)),
-            |(scratch, positions), (row, heights)| {
-                place_row(lattice, row, positions);
-                surface.heights(positions, scratch, heights);
-            },
-        );
-        Ok(heights)
+        Ok(fill_by_tiles(lattice, Scratch::new, |scratch, positions, heights| {
+            surface.heights(positions, scratch, heights);
+        }))
     }
 }
 

@@ -54,9 +54,9 @@ impl NoiseSurface {
         heights.fill(height);
         weights.fill(weight);
         for octave in &self.octaves {
-            octave.row(positions, [0.0; 2], points, noise);
+            octave.fill(positions, [0.0; 2], points, noise);
             if shape == OctaveShape::CrossedRidges {
-                octave.row(positions, CROSSING, points, moved);
+                octave.fill(positions, CROSSING, points, moved);
             }
             shape.apply(noise, moved);
             cascade.add(octave.amplitude, noise, heights, weights);

@@ -5,6 +5,7 @@ use landform_sim::random::{RandomStream, unit};
 use super::cells::{CellNoise, Cells};
 use super::cellular::{CellularFeature, CellularNoise};
 use super::gradient::{Directions, GradientNoise, SimplexNoise};
+use super::patch::Patch;
 
 fn cells() -> Cells {
     Cells::new(&RandomStream::new(11, "test"), 2, [0, 0]).0
@@ -15,28 +16,81 @@ fn points() -> Vec<[f64; 2]> {
     (0..4000).map(|n| f64::from(n) - 2000.0).map(|n| [n * 0.013, (n * 0.1).sin() * 3.0]).collect()
 }
 
-/// The row gives the bits of the noise at single points, all of them between -1 and 1.
-fn rows_agree_with_points(noise: &impl CellNoise) {
-    let points = points();
-    let mut row = vec![f64::NAN; points.len()];
-    noise.row(&points, &mut row);
-    for (&value, &point) in row.iter().zip(&points) {
-        assert_eq!(value.to_bits(), noise.at(point).to_bits(), "{point:?}");
-        assert!((-1.0..=1.0).contains(&value), "{value} at {point:?}");
+/// Points of a turned tile, on both sides of zero, with corners of cells among them.
+fn tile(count: usize, step: f64) -> Vec<[f64; 2]> {
+    let place = |n: usize| [n % 37, n / 37].map(|steps| steps as f64 * step - 5.0);
+    let turn = |[x, y]: [f64; 2]| [x + 0.75 * y, y - 0.75 * x];
+    (0..count).map(place).map(turn).collect()
+}
+
+/// Both ways to many values give the bits of the noise at single points, all between -1 and 1.
+fn many_agree_with_one(noise: &impl CellNoise) {
+    let patches = [tile(1036, 0.25), tile(37 * 29 + 1, 0.4), tile(64, 0.1), tile(11, 0.02)];
+    for points in patches.into_iter().chain([points()]) {
+        let [mut patch, mut in_turn] = [(); 2].map(|()| vec![f64::NAN; points.len()]);
+        Patch::over(noise, &points).expect("points close together").fill(&points, &mut patch);
+        noise.fill_in_turn(&points, &mut in_turn);
+        for ((&point, patch), in_turn) in points.iter().zip(&patch).zip(&in_turn) {
+            let expected = noise.at(point);
+            assert_eq!(patch.to_bits(), expected.to_bits(), "{point:?}");
+            assert_eq!(in_turn.to_bits(), expected.to_bits(), "{point:?}");
+            assert!((-1.0..=1.0).contains(patch), "{patch} at {point:?}");
+        }
+        if points.len() > 1000 {
+            let most = patch.iter().copied().fold(-1.0, f64::max);
+            let least = patch.iter().copied().fold(1.0, f64::min);
+            assert!(most - least > 0.8, "{least} to {most}");
+        }
     }
-    let most = row.iter().copied().fold(-1.0, f64::max);
-    let least = row.iter().copied().fold(1.0, f64::min);
-    assert!(most - least > 0.8, "{least} to {most}");
 }
 
 #[test]
-fn rows_agree_with_single_points() {
+fn many_points_agree_with_single_ones() {
     let directions = Directions::shared();
-    rows_agree_with_points(&GradientNoise { cells: cells(), directions });
-    rows_agree_with_points(&SimplexNoise { cells: cells(), directions });
+    many_agree_with_one(&GradientNoise { cells: cells(), directions });
+    many_agree_with_one(&SimplexNoise { cells: cells(), directions });
     use CellularFeature::{Difference, Nearest, Second};
     for feature in [Nearest, Second, Difference] {
-        rows_agree_with_points(&CellularNoise { cells: cells(), feature });
+        many_agree_with_one(&CellularNoise { cells: cells(), feature });
+    }
+}
+
+/// Points all over make no patch; one that is no number has no value and harms no other.
+#[test]
+fn odd_points_are_borne() {
+    let noise = GradientNoise { cells: cells(), directions: Directions::shared() };
+    let far = [1e300, f64::INFINITY, 400.0].map(|place| [[0.0, 0.0], [place, 0.0]].repeat(20));
+    for points in far {
+        assert!(Patch::over(&noise, &points).is_none());
+    }
+    assert!(Patch::over(&noise, &[[0.5, 0.5]]).is_none(), "one point is not worth a patch");
+    let mut points = tile(100, 0.1);
+    points[50] = [f64::NAN; 2];
+    let mut values = vec![0.0; 100];
+    noise.fill(&points, &mut values);
+    for (number, value) in values.iter().enumerate() {
+        assert_eq!(value.is_nan(), number == 50);
+    }
+}
+
+/// Perlin's noise as it is usually written: the heights of four planes, blended along one axis
+/// and then along the other.
+#[test]
+fn gradient_noise_is_perlins() {
+    let directions = Directions::shared();
+    let noise = GradientNoise { cells: cells(), directions };
+    for [x, y] in points() {
+        let [column, row] = [x.floor(), y.floor()];
+        let height = |east: i64, north: i64| {
+            let slope = noise.corner(column as i64 + east, row as i64 + north);
+            slope[0] * (x - column - east as f64) + slope[1] * (y - row - north as f64)
+        };
+        let fade = |t: f64| 6.0 * t.powi(5) - 15.0 * t.powi(4) + 10.0 * t.powi(3);
+        let [across, up] = [fade(x - column), fade(y - row)];
+        let south = (1.0 - across) * height(0, 0) + across * height(1, 0);
+        let north = (1.0 - across) * height(0, 1) + across * height(1, 1);
+        let expected = 2.0_f64.sqrt() * ((1.0 - up) * south + up * north);
+        assert!((noise.at([x, y]) - expected).abs() < 1e-14, "{x}, {y}");
     }
 }
 

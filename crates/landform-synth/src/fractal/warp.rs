@@ -82,7 +82,7 @@ impl WarpField {
         for (octaves, shifts) in self.octaves.iter().zip([&mut *moved, &mut *weights]) {
             shifts.fill(0.0);
             for octave in octaves {
-                octave.row(positions, [0.0; 2], points, noise);
+                octave.fill(positions, [0.0; 2], points, noise);
                 shifts
                     .iter_mut()
                     .zip(&*noise)

@@ -21,7 +21,6 @@ mod warp;
 mod weigh;
 
 use landform_graph::Lattice;
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +38,7 @@ pub use weigh::Weigh;
 
 use crate::error::Checks;
 use crate::fractal::Frame;
-use crate::place::place_row;
+use crate::place::fill_by_tiles;
 use crate::{Generator, SynthError};
 use build::Builder;
 use onto::{Meeting, OntoSurface};
@@ -110,13 +109,13 @@ impl Generator for ConstructionTree {
             }
         }
         let terrain = self.terrain(lattice.spacing(), seed)?;
-        let mut heights = vec![0.0; lattice.node_count()];
-        let rows = heights.par_chunks_mut(lattice.width()).enumerate();
-        rows.for_each_init(Vec::new, |points, (row, heights)| {
-            place_row(lattice, row, points);
-            heights.copy_from_slice(&terrain.elevations(points));
-        });
-        Ok(heights)
+        Ok(fill_by_tiles(
+            lattice,
+            |_| (),
+            |(), points, heights| {
+                heights.copy_from_slice(&terrain.elevations(points));
+            },
+        ))
     }
 }
 
