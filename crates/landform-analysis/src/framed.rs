@@ -45,6 +45,23 @@ impl Framed {
         [row, row + 1, row + 2].map(|row| &self.values[row * stride..][..stride])
     }
 
+    /// The values around the cell in `column` of the middle one of three rows, in the order of the
+    /// eight steps.
+    #[inline(always)]
+    pub fn around([north, here, south]: [&[f64]; 3], column: usize) -> [f64; 8] {
+        let [west, middle, east] = [column, column + 1, column + 2];
+        [
+            here[east],
+            north[middle],
+            here[west],
+            south[middle],
+            north[east],
+            north[west],
+            south[west],
+            south[east],
+        ]
+    }
+
     /// The values without their frame.
     pub fn into_inner(mut self) -> Vec<f64> {
         let [columns, stride] = [self.columns, self.stride];
@@ -61,6 +78,20 @@ impl Framed {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_around_a_cell_are_those_of_the_steps() {
+        let grid = Grid::new([4, 3], [1.0; 2]).unwrap();
+        let values: Vec<f64> = (0..12).map(f64::from).collect();
+        let framed = Framed::new(&grid, &values);
+        for cell in 0..12 {
+            let [column, row] = grid.position(cell);
+            let around = Framed::around(framed.window(row), column);
+            let steps = framed.offsets().map(|step| framed.index(cell).wrapping_add(step));
+            let expected = steps.map(|index| framed.values[index]);
+            assert_eq!(around.map(f64::to_bits), expected.map(f64::to_bits));
+        }
+    }
 
     #[test]
     fn the_frame_goes_on_and_comes_off() {

@@ -76,3 +76,39 @@ fn enter(a: [f64; 2], b: [f64; 2], entered: &mut Vec<u64>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// Squares with one of many points of the lines in them: nearly all that the lines enter.
+    fn squares_by_points(line: &[[f64; 2]], side: f64, shift: [f64; 2]) -> BTreeSet<[u64; 2]> {
+        const POINTS: usize = 20_000;
+        let point = |pair: &[[f64; 2]], number: usize| {
+            let share = number as f64 / POINTS as f64;
+            [0, 1].map(|axis| {
+                let place = (1.0 - share) * pair[0][axis] + share * pair[1][axis];
+                ((place + shift[axis]) / side).floor() as u64
+            })
+        };
+        let pairs = line.windows(2);
+        pairs.flat_map(|pair| (0..=POINTS).map(move |number| point(pair, number))).collect()
+    }
+
+    #[test]
+    fn boxes_are_those_of_many_points() {
+        let point = |n: f64| [20.0 + 9.0 * n.sin() + n, 20.0 + 11.0 * (1.3 * n).cos()];
+        let line: Vec<[f64; 2]> = (0..50).map(|n| point(f64::from(n) * 0.7)).collect();
+        for side in [0.31, 1.0, 4.7] {
+            for shift in [[0.0, 0.0], [0.1, 0.2]] {
+                let found = boxes(std::slice::from_ref(&line), side, shift);
+                let expected = squares_by_points(&line, side, shift).len();
+                assert!(
+                    (expected..=expected + expected / 200).contains(&found),
+                    "{found}, {expected}"
+                );
+            }
+        }
+    }
+}

@@ -81,3 +81,44 @@ fn leave(foot: [f64; 3], here: [f64; 3], next: [f64; 3], ruler: f64) -> Option<[
     let share = ((half * half - square * inside).sqrt() - half) / square;
     Some(std::array::from_fn(|axis| here[axis] + share.clamp(0.0, 1.0) * piece[axis]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wriggling line with pieces shorter and longer than the rulers.
+    fn line() -> Vec<[f64; 3]> {
+        let point =
+            |n: f64| [n + 3.0 * (1.7 * n).sin(), 4.0 * (0.9 * n).cos() + (5.0 * n).sin(), 0.0];
+        (0..60).map(|n| point(f64::from(n) * if n % 7 == 0 { 1.0 } else { 0.5 })).collect()
+    }
+
+    /// The walk over thousands of points a piece, none of them computed: a step ends at the first
+    /// that is a ruler away.
+    fn steps_by_points(path: &[[f64; 3]], ruler: f64) -> f64 {
+        const POINTS: usize = 20_000;
+        let mut foot = path[0];
+        let mut count = 0.0;
+        for pair in path.windows(2) {
+            for number in 1..=POINTS {
+                let share = number as f64 / POINTS as f64;
+                let point =
+                    [0, 1, 2].map(|axis| (1.0 - share) * pair[0][axis] + share * pair[1][axis]);
+                if distance(foot, point) >= ruler {
+                    count += 1.0;
+                    foot = point;
+                }
+            }
+        }
+        count + distance(foot, path[path.len() - 1]) / ruler
+    }
+
+    #[test]
+    fn walks_are_those_over_many_points() {
+        for ruler in [0.3, 1.0, 2.5, 7.0] {
+            let [found, expected] =
+                [steps(line().into_iter(), ruler), steps_by_points(&line(), ruler)];
+            assert!((found / expected - 1.0).abs() < 5e-3, "{ruler}: {found}, {expected}");
+        }
+    }
+}

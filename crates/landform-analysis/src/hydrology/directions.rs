@@ -153,21 +153,11 @@ impl FlowDirections {
 }
 
 /// Directions of a row of cells, from it and the rows to its north and south with their frames.
-fn steepest_of_row([north, here, south]: [&[f64]; 3], inverse: [f64; 8], codes: &mut [u8]) {
-    let columns = codes.len();
-    let [north, here, south] = [north, here, south].map(|row| &row[..columns + 2]);
+fn steepest_of_row(rows: [&[f64]; 3], inverse: [f64; 8], codes: &mut [u8]) {
+    let rows = rows.map(|row| &row[..codes.len() + 2]);
     for (x, code) in codes.iter_mut().enumerate() {
-        let height = here[x + 1];
-        let around = [
-            here[x + 2],
-            north[x + 1],
-            here[x],
-            south[x + 1],
-            north[x + 2],
-            north[x],
-            south[x],
-            south[x + 2],
-        ];
+        let height = rows[1][x + 1];
+        let around = Framed::around(rows, x);
         let mut steepest = 0.0;
         let mut direction = PIT;
         for (step, (next, inverse)) in around.iter().zip(inverse).enumerate() {

@@ -7,25 +7,27 @@ use crate::grid::Grid;
 /// cell that is drained. Of several ways the search takes the one that it finds first: from
 /// drained cells outwards, in the order of cells and directions.
 pub(super) fn drain_flats(grid: &Grid, heights: &[f64], codes: &mut [u8]) {
-    let mut found = Vec::new();
+    // Cells have numbers of 32 bits.
+    let mut found: Vec<(u32, u8)> = Vec::new();
     for cell in (0..codes.len()).filter(|&cell| codes[cell] == PIT) {
         let way = grid.neighbours(cell).find(|&(_, next)| {
             heights[next] == heights[cell] && codes[next] <= LEAVES && codes[next] != PIT
         });
         if let Some((direction, _)) = way {
-            found.push((cell, direction as u8));
+            found.push((cell as u32, direction as u8));
         }
     }
     for &(cell, direction) in &found {
-        codes[cell] = direction;
+        codes[cell as usize] = direction;
     }
     let mut next_found = 0;
     while let Some(&(cell, _)) = found.get(next_found) {
         next_found += 1;
+        let cell = cell as usize;
         for (direction, beside) in grid.neighbours(cell) {
             if codes[beside] == PIT && heights[beside] == heights[cell] {
                 codes[beside] = opposite(direction as u8);
-                found.push((beside, codes[beside]));
+                found.push((beside as u32, codes[beside]));
             }
         }
     }

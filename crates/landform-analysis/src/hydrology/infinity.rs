@@ -20,17 +20,14 @@ const FACETS: [[u8; 2]; 8] = [[0, 4], [1, 4], [1, 5], [2, 5], [2, 6], [3, 6], [3
 pub struct DInfinity {
     /// Directions of the cells that no triangle drains, and where water leaves.
     single: FlowDirections,
-    facets: Vec<Facet>,
+    /// Index in [`FACETS`] of the triangle that each cell drains to; [`NO_FACET`] if none descends.
+    facets: Vec<u8>,
+    /// Share of the neighbour on the diagonal.
+    diagonal_shares: Vec<f64>,
 }
 
-/// The triangle that a cell drains to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Facet {
-    /// Share of the neighbour on the diagonal.
-    diagonal_share: f64,
-    /// Index in [`FACETS`]; `None` if no triangle descends.
-    number: Option<u8>,
-}
+/// No triangle descends.
+const NO_FACET: u8 = 8;
 
 impl DInfinity {
     /// Directions on a surface without depressions, as
@@ -42,24 +39,19 @@ impl DInfinity {
         let single = FlowDirections::over_filled(grid, filled)?;
         let framed = Framed::new(grid, filled);
         let triangles = Triangles::new(grid);
-        let mut facets = vec![Facet::default(); filled.len()];
-        facets.par_chunks_exact_mut(grid.columns()).enumerate().for_each(|(row, facets)| {
-            let [north, here, south] = framed.window(row);
-            for (x, facet) in facets.iter_mut().enumerate() {
-                let around = [
-                    here[x + 2],
-                    north[x + 1],
-                    here[x],
-                    south[x + 1],
-                    north[x + 2],
-                    north[x],
-                    south[x],
-                    south[x + 2],
-                ];
-                *facet = triangles.steepest(here[x + 1], &around);
+        let mut facets = vec![NO_FACET; filled.len()];
+        let mut diagonal_shares = vec![0.0; filled.len()];
+        let columns = grid.columns();
+        let rows = facets.par_chunks_exact_mut(columns);
+        let rows = rows.zip(diagonal_shares.par_chunks_exact_mut(columns)).enumerate();
+        rows.for_each(|(row, (facets, shares))| {
+            let window = framed.window(row).map(|row| &row[..columns + 2]);
+            for (x, (facet, share)) in facets.iter_mut().zip(shares).enumerate() {
+                let around = Framed::around(window, x);
+                (*facet, *share) = triangles.steepest(window[1][x + 1], &around);
             }
         });
-        Ok(Self { single, facets })
+        Ok(Self { single, facets, diagonal_shares })
     }
 
     /// Angle of the flow, counter-clockwise from east on the map in radians, 0 to 2 pi; `None`
@@ -70,14 +62,15 @@ impl DInfinity {
             let [x, y] = STEPS[usize::from(step)].map(|step| step as f64);
             (-y * height).atan2(x * width).rem_euclid(std::f64::consts::TAU)
         };
-        let Facet { number: Some(number), diagonal_share } = self.facets[cell] else {
+        let number = self.facets[cell];
+        let Some(facet) = FACETS.get(usize::from(number)) else {
             return self.single.direction(cell).map(of_step);
         };
-        let [axis, diagonal] = FACETS[usize::from(number)].map(of_step);
+        let [axis, diagonal] = facet.map(of_step);
         let full = std::f64::consts::TAU;
         // The triangle between south-east and east ends at a full turn.
         let axis = if number == 7 { full } else { axis };
-        Some((axis + diagonal_share * (diagonal - axis)).rem_euclid(full))
+        Some((axis + self.diagonal_shares[cell] * (diagonal - axis)).rem_euclid(full))
     }
 
     /// The neighbours that receive the water of a cell, with their shares, which add up to 1; a
@@ -89,14 +82,14 @@ impl DInfinity {
 
     #[inline]
     fn receivers_by(&self, offsets: &[isize; 8], cell: usize) -> [(usize, f64); 2] {
-        let facet = self.facets[cell];
-        let Some(number) = facet.number else {
+        let Some(facet) = FACETS.get(usize::from(self.facets[cell])) else {
             let next = self.single.receiver(cell);
             return [next.map_or((cell, 0.0), |next| (next, 1.0)), (cell, 0.0)];
         };
-        let [axis, diagonal] = FACETS[usize::from(number)]
-            .map(|step| cell.wrapping_add_signed(offsets[usize::from(step)]));
-        [(axis, 1.0 - facet.diagonal_share), (diagonal, facet.diagonal_share)]
+        let [axis, diagonal] =
+            facet.map(|step| cell.wrapping_add_signed(offsets[usize::from(step)]));
+        let share = self.diagonal_shares[cell];
+        [(axis, 1.0 - share), (diagonal, share)]
     }
 
     /// Area in square metres whose water passes each cell, itself included; 0 where there are no
@@ -112,14 +105,21 @@ impl DInfinity {
         }
         let area = |cell| if self.single.has_data(cell) { grid.cell_area() } else { 0.0 };
         let mut areas: Vec<f64> = (0..donors.len()).map(area).collect();
-        let mut ready: Vec<usize> = (0..donors.len()).filter(|&cell| donors[cell] == 0).collect();
-        while let Some(cell) = ready.pop() {
-            for (next, share) in self.receivers_by(&offsets, cell) {
-                if share > 0.0 {
-                    areas[next] += share * areas[cell];
-                    donors[next] -= 1;
-                    if donors[next] == 0 {
-                        ready.push(next);
+        const VISITED: u8 = u8::MAX;
+        let mut ready = Vec::new();
+        for source in 0..donors.len() {
+            if donors[source] == 0 {
+                ready.push(source);
+            }
+            while let Some(cell) = ready.pop() {
+                donors[cell] = VISITED;
+                for (next, share) in self.receivers_by(&offsets, cell) {
+                    if share > 0.0 {
+                        areas[next] += share * areas[cell];
+                        donors[next] -= 1;
+                        if donors[next] == 0 {
+                            ready.push(next);
+                        }
                     }
                 }
             }
@@ -147,10 +147,10 @@ impl Triangles {
         Self { inverse: sides.map(|side| side.map(f64::recip)), aspect }
     }
 
-    /// The triangle with the steepest descent from a height; of several, the first. Triangles
-    /// with a corner without data do not count.
+    /// Number of the triangle with the steepest descent from a height, and the share of its
+    /// diagonal; of several, the first. Triangles with a corner without data do not count.
     #[inline]
-    fn steepest(&self, height: f64, around: &[f64; 8]) -> Facet {
+    fn steepest(&self, height: f64, around: &[f64; 8]) -> (u8, f64) {
         let mut best = (0.0, 0, 0.0, 0.0);
         for (number, [axis, diagonal]) in FACETS.into_iter().enumerate() {
             let [near, far] = [around[usize::from(axis)], around[usize::from(diagonal)]];
@@ -171,14 +171,14 @@ impl Triangles {
         }
         let (squared, number, tilt, first) = best;
         if squared == 0.0 {
-            return Facet::default();
+            return (NO_FACET, 0.0);
         }
         let diagonal_share = match tilt {
             0.0 => 0.0,
             f64::INFINITY => 1.0,
             second => (second / first).atan() / self.aspect[number].atan(),
         };
-        Facet { diagonal_share, number: Some(number as u8) }
+        (number as u8, diagonal_share)
     }
 }
 
@@ -221,14 +221,15 @@ mod tests {
                     by_definition(&grid, corners, axis % 2 == 0)
                 };
                 let steepest = (0..8).map(|number| triangle(number).1).fold(0.0, f64::max);
-                let Some(number) = directions.facets[cell].number else {
+                let number = directions.facets[cell];
+                if number == NO_FACET {
                     assert!(steepest <= 0.0);
                     continue;
-                };
+                }
                 let (angle, slope) = triangle(usize::from(number));
                 assert!((slope - steepest).abs() <= 1e-12 * steepest);
                 let start = f64::from(number.div_ceil(2)) * FRAC_PI_2;
-                let expected = if number % 2 == 0 { start + angle } else { start - angle };
+                let expected = if number.is_multiple_of(2) { start + angle } else { start - angle };
                 let difference = directions.angle(cell).unwrap() - expected.rem_euclid(TAU);
                 assert!(difference.abs() < 1e-9 || (difference.abs() - TAU).abs() < 1e-9);
                 compared += 1;
