@@ -27,6 +27,10 @@ struct Case {
 const SAND: &str = "(field: \"sand\", from: WhiteNoise(mean_m: 12.0, amplitude_m: 12.0))";
 const HILLS: &str = "(field: \"bed\", from: SmoothNoise(standard_deviation_m: 8.0))";
 const LAKE: &str = "(field: \"water\", from: WhiteNoise(mean_m: 3.0, amplitude_m: 3.0))";
+const ROCK: &str = "(field: \"resistance\", from: WhiteNoise(mean_m: 0.5, amplitude_m: 0.5))";
+const SQUARE: &str = "(field: \"land\", from: StartingLand())";
+const STRIP: &str = "(field: \"land\", from: StartingLand(shape: Strip))";
+const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_m: 0.9))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
@@ -42,6 +46,26 @@ const fn case(
 }
 
 const GOLDEN: &[Case] = &[
+    case("CoastErosion(force: 0.6)", &[SQUARE, ROCK], TRAY, 0x9da8_2f69_80f4_223b),
+    case(
+        "CoastErosion(force: 0.6, perimeter: Near(radius_m: 95.0), weakening: Power)",
+        &[STRIP, ROCK],
+        BELT,
+        0xfeba_1c1a_0d24_7420,
+    ),
+    case(
+        "CoastErosion(force: 0.5, perimeter: Contiguous(radius_m: 95.0), wear: (rate: 0.1))",
+        &[SQUARE, ROCK],
+        ISLAND,
+        0x802b_c416_9420_caa1,
+    ),
+    case(
+        "CoastErosion(regions: [(place: Sides([North]), force: 0.8)])",
+        &[SPECKS, ROCK],
+        TORUS,
+        0x8093_8c13_4a9d_31ac,
+    ),
+    case("IslandPruning(least_shore_m: 60.0)", &[SPECKS], TORUS, 0xdeff_f79d_c663_68ea),
     case("Dunes(slab_m: 3.0)", &[SAND, HILLS], TORUS, 0x3ddd_f41e_73f4_22fd),
     case("Dunes(slab_m: 3.0)", &[SAND, HILLS], ISLAND, 0x6525_e358_f4f4_b4d9),
     case("Dunes(slab_m: 3.0, feed_slabs: 7.5)", &[SAND, HILLS], BELT, 0x9a5d_4b34_83ea_50c7),
@@ -99,6 +123,7 @@ impl Case {
     /// A field that the process has.
     fn measured(&self) -> &'static str {
         match self.name() {
+            "CoastErosion" | "IslandPruning" => "land",
             "Sandpile" => "grains",
             "Life" => "alive",
             "LivingCells" => "cells",

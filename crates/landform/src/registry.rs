@@ -11,6 +11,7 @@ pub fn registry() -> Registry {
     registry.domain::<inputs::RasterDomain>();
     registry.initial::<inputs::DomainRaster>().initial::<inputs::RasterFile>();
     landform_synth::register(&mut registry);
+    landform_coast::register(&mut registry);
     landform_dunes::register(&mut registry);
     landform_lessons::register(&mut registry);
     registry
@@ -20,6 +21,7 @@ pub fn registry() -> Registry {
         .metric::<metrics::SpectralFalloff>()
         .metric::<metrics::Hypsometry>()
         .metric::<metrics::ShoreDimension>()
+        .metric::<metrics::SideDimension>()
         .metric::<metrics::Depressions>()
         .metric::<metrics::Drainage>();
     registry
@@ -29,6 +31,8 @@ pub fn registry() -> Registry {
         .output::<outputs::FieldFile>()
         .output::<outputs::FieldSeries>()
         .output::<outputs::AgentTable>()
+        .output::<outputs::LevelLines>()
+        .output::<outputs::IslandTable>()
         .output::<outputs::Mesh>();
     registry
 }

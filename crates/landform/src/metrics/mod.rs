@@ -4,12 +4,14 @@ mod depressions;
 mod drainage;
 mod hypsometry;
 mod shore;
+mod side_dimension;
 mod spectral;
 
 pub use depressions::Depressions;
 pub use drainage::{Drainage, Pits};
 pub use hypsometry::{FirstCurve, Hypsometry};
 pub use shore::{ShoreDimension, ShoreLevel};
+pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
 
 use landform_analysis::grid::Grid;

@@ -1,0 +1,22 @@
+//! Coasts as processes, metrics and initial conditions that scenarios may name.
+
+mod erosion;
+mod groups;
+mod metrics;
+mod pruning;
+mod starting_land;
+
+pub use erosion::{CoastErosion, CoastRecord};
+pub use groups::{CoastAgents, CoastMarks, Eroded, Land, Resistance};
+pub use metrics::{CoastActivity, Islands};
+pub use pruning::IslandPruning;
+pub use starting_land::{LandShape, StartingLand};
+
+use landform_sim::registry::Registry;
+
+/// Registers the processes, metrics and initial conditions of this crate.
+pub fn register(registry: &mut Registry) {
+    registry.process::<CoastErosion>().process::<IslandPruning>();
+    registry.metric::<CoastActivity>().metric::<Islands>();
+    registry.initial::<StartingLand>();
+}

@@ -1,0 +1,112 @@
+//! Lines of equal value as a table of points.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use landform_analysis::{LevelSet, LevelSetEdge, level_sets};
+use landform_graph::Lattice;
+use landform_io::{Georeference, IfExists, write_atomically};
+use landform_sim::output::{FileOutput, When};
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::field_file;
+
+/// The lines along which a field passes through some levels, contours or coasts, as comma-separated
+/// values: a point a row, with the number of its line and its level. `landform analyze` and every
+/// map program read it.
+///
+/// Land, at or above the level, lies to the left. Points are in metres from the south-western
+/// corner of the map, or in the coordinates of the raster that the domain came from; closed lines
+/// end at their first point.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct LevelLines {
+    /// File name below the output folder.
+    pub file: PathBuf,
+    /// Name of the field.
+    pub field: String,
+    /// The levels; 0.5 is the coast of the field `land`.
+    #[schemars(length(min = 1))]
+    pub levels: Vec<f64>,
+    /// When it is written.
+    pub when: When,
+}
+
+impl Default for LevelLines {
+    fn default() -> Self {
+        Self {
+            file: "lines.csv".into(),
+            field: "surface".to_owned(),
+            levels: vec![0.0],
+            when: When::End,
+        }
+    }
+}
+
+impl FileOutput for LevelLines {
+    const NAME: &'static str = "LevelLines";
+    const KIND: &'static str = "lines";
+    const EXTENSIONS: &'static [&'static str] = &["csv"];
+
+    fn order(&self) -> (&Path, &When) {
+        (&self.file, &self.when)
+    }
+
+    fn fields(&self) -> Vec<String> {
+        vec![self.field.clone()]
+    }
+
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        if lattice.depth() > 1 {
+            let message = format!("the domain has {} layers", lattice.depth());
+            return Err(Problem::new("", message, "a domain with two sizes"));
+        }
+        match self.levels.iter().position(|level| !level.is_finite()) {
+            Some(index) => {
+                let message = format!("the level is {}", self.levels[index]);
+                Err(Problem::new(format!("levels[{index}]"), message, "a finite number"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+        let (values, _) = field_file::values(snapshot, &self.field)?;
+        let lattice = snapshot.lattice();
+        let size = [lattice.width(), lattice.height()];
+        let lines = |level: &f64| {
+            let lines = level_sets(&values, size, *level, LevelSetEdge::End);
+            lines.map(|lines| (*level, lines))
+        };
+        let lines = self.levels.iter().map(lines).collect::<Result<Vec<_>, _>>();
+        let lines = lines.map_err(|error| Problem::new("levels", error.to_string(), ""))?;
+        let place = snapshot.domain().georeference.as_ref();
+        let place = place.and_then(|place| place.downcast_ref::<Georeference>()).cloned();
+        let place = place.unwrap_or_else(|| Georeference::local(size[1], lattice.spacing()));
+        write_atomically(path, IfExists::Replace, |file| table(file, &lines, &place, size))
+            .map_err(|error| Problem::new("file", error.to_string(), ""))
+    }
+}
+
+/// Writes the header and a row for each point of each line.
+fn table(
+    file: &mut impl Write,
+    levels: &[(f64, Vec<LevelSet>)],
+    place: &Georeference,
+    size: [usize; 2],
+) -> std::io::Result<()> {
+    let names = if place.is_geographic(size) { "lon,lat" } else { "x,y" };
+    writeln!(file, "line,level,{names}")?;
+    let lines = levels.iter().flat_map(|(level, lines)| lines.iter().map(move |l| (level, l)));
+    for (number, (level, line)) in lines.enumerate() {
+        for [column, row] in &line.points {
+            let x = place.west + (column + 0.5) * place.cell_size[0];
+            let y = place.north - (row + 0.5) * place.cell_size[1];
+            writeln!(file, "{},{level:?},{x:?},{y:?}", number + 1)?;
+        }
+    }
+    Ok(())
+}
