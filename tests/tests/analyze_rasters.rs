@@ -358,6 +358,15 @@ fn cells_that_are_oblong_or_degrees_or_unknown_have_their_size() {
     let bare = object(&scratch, "bare.npy");
     assert_eq!(bare["cell_m"], serde_json::json!([1.0, 1.0]));
     assert!(notes(&bare).contains("--spacing-m"), "{bare}");
+    raster.georeference = Some(Georeference::local(60, 20.0));
+    let metadata = Metadata { spacing_m: Some(20.0), ..Metadata::default() };
+    write_raster(scratch.path("own.png"), &raster, &metadata, IfExists::Refuse).unwrap();
+    let own = object(&scratch, "own.png");
+    assert_eq!(own["cell_m"], serde_json::json!([20.0, 20.0]));
+    let integral = |found: &Value| found["hypsometry"]["integral"].as_f64().unwrap();
+    assert!((integral(&own) - integral(&bare)).abs() < 1e-4, "{own}");
+    assert!(!notes(&own).contains("grey"), "{own}");
+
     let told = object(&scratch, "bare.npy --spacing-m 25");
     assert_eq!(told["cell_m"], serde_json::json!([25.0, 25.0]));
     assert!(!notes(&told).contains("--spacing-m"), "{told}");

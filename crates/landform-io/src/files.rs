@@ -20,13 +20,13 @@ pub struct RasterFile {
     pub encoding: Encoding,
 }
 
-const READABLE: &str = ".tif, .tiff, .asc, .npy";
+const READABLE: &str = ".tif, .tiff, .asc, .npy, .png";
 #[cfg(not(feature = "exr"))]
 const WRITABLE: &str = ".tif, .tiff, .asc, .npy, .png, .raw (.exr with the feature `exr`)";
 #[cfg(feature = "exr")]
 const WRITABLE: &str = ".tif, .tiff, .asc, .npy, .png, .raw, .exr";
 
-/// Reads a raster within the default [`ReadLimits`]: GeoTIFF and NPY are known by their first
+/// Reads a raster within the default [`ReadLimits`]: GeoTIFF, NPY and PNG are known by their first
 /// bytes, ESRI ASCII by its extension or its first word.
 ///
 /// # Errors
@@ -51,11 +51,13 @@ pub fn read_raster_file(
             geotiff::read(path, limits)
         }
         (_, [0x93, b'N', b'U', b'M', b'P', b'Y', ..]) => npy::read(path, limits),
+        (_, [0x89, b'P', b'N', b'G', ..]) => png16::read(path, limits),
         ("asc", _) => esri_ascii::read(path, limits),
         _ if text.trim_start().starts_with("ncols") => esri_ascii::read(path, limits),
         // Damaged files of a known name: their reader says what is wrong.
         ("tif" | "tiff", _) => geotiff::read(path, limits),
         ("npy", _) => npy::read(path, limits),
+        ("png", _) => png16::read(path, limits),
         (extension, _) => Err(unknown(path, extension, READABLE)),
     }
 }

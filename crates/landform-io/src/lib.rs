@@ -6,7 +6,7 @@
 //! | ESRI ASCII `.asc` ([`esri_ascii`]) | yes | every digit | a sidecar |
 //! | NumPy `.npy` ([`npy`]) | yes | f64, f32, i32, i16, u8 | a sidecar |
 //! | NumPy archive `.npz` ([`npz`]) | its own | whole numbers, f32, f64, texts | the archive |
-//! | 16-bit grey `.png` ([`png16`]) | no | yes | the file |
+//! | grey `.png` ([`png16`]) | 8 and 16 bits | 16 bits | the file |
 //! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
 //! | NetCDF `.nc`, series of fields ([`netcdf`]) | no | f64 | the file |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |

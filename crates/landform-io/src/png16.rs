@@ -1,5 +1,7 @@
 //! Pictures of a field in 16-bit grey, with the scale that turns grey into values.
 
+mod read;
+
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
@@ -7,6 +9,8 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Compression, Encoder};
 
 use crate::{Encoding, Fault, IfExists, IoError, Metadata, Raster};
+
+pub use read::read;
 
 /// Writes a field as 16-bit grey: `value = offset + scale * grey`. The greys span `range`
 /// (least and greatest value; values beyond it get its ends), or the whole range of the

@@ -56,6 +56,12 @@ pub const TARGETS: &[Target] = &[
         words: rasters::npy_words,
     },
     Target {
+        name: "png",
+        try_out: rasters::png,
+        seeds: rasters::png_seeds,
+        words: rasters::png_words,
+    },
+    Target {
         name: "npz",
         try_out: rasters::npz,
         seeds: rasters::npz_seeds,

@@ -10,7 +10,7 @@ use landform::io::geotiff::{self, Options};
 use landform::io::npz::{Content, Member};
 use landform::io::{
     IfExists, IoError, Metadata, Raster, RasterFile, ReadLimits, SampleType, Sidecar,
-    esri_ascii as text_grid, npy as array, npz as archive, read_raster_file,
+    esri_ascii as text_grid, npy as array, npz as archive, png16 as picture, read_raster_file,
 };
 
 use crate::{Scratch, files_below, hills};
@@ -43,6 +43,11 @@ pub fn esri_ascii(bytes: &[u8]) -> bool {
         assert_same(&file, &read(&again).expect("what was written can be read"));
     }
     true
+}
+
+/// A grey picture.
+pub fn png(bytes: &[u8]) -> bool {
+    read(&Scratch::new("png").write("a.png", bytes)).is_some()
 }
 
 /// An array file.
@@ -188,6 +193,16 @@ pub fn esri_ascii_seeds() -> Vec<(String, Vec<u8>)> {
     seeds
 }
 
+/// Grey pictures with their scale.
+pub fn png_seeds() -> Vec<(String, Vec<u8>)> {
+    let write = |(name, raster): (&str, Raster)| {
+        written(&format!("{name}.png"), |path| {
+            picture::write(path, &raster, &metadata(), None, IfExists::Refuse)
+        })
+    };
+    rasters().map(write).into()
+}
+
 /// Arrays of several sample types, and those of NumPy.
 pub fn npy_seeds() -> Vec<(String, Vec<u8>)> {
     let mut seeds = foreign("npy");
@@ -279,6 +294,11 @@ pub fn text_words() -> Vec<String> {
         "[",
         "\"Geographic\"",
     ])
+}
+
+/// Words of pictures.
+pub fn png_words() -> Vec<String> {
+    owned(&["scale", "offset", "no_data", "spacing_m", "nan", "inf", "1e308", "IHDR", "IDAT"])
 }
 
 /// Words of array files.

@@ -12,7 +12,8 @@ impl Drawing {
     pub fn svg(&self) -> String {
         let [width, height] = self.size;
         let mut page = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+             xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n\
              <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
@@ -77,7 +78,7 @@ fn picture(image: &Image, [left, top, right, bottom]: Frame, clip: &str) -> Stri
     }
     format!(
         "<image x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
-         preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"{clip}/>\n",
+         preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,{}\"{clip}/>\n",
         base64(&bytes)
     )
 }

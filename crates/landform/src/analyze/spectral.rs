@@ -62,6 +62,7 @@ impl Spectral {
         let size = [window.columns, window.rows];
         let lattice = Lattice::plane(size, 1.0, Connectivity::Four, [Boundary::Open; 2]);
         let lattice = notes.found("spectrum", lattice)?;
+        note_length(cells, window, notes);
         let untreated = spectrum(&lattice, cells, &heights);
         let untreated = untreated.map(|spectrum| numbers(&spectrum, None)).unwrap_or_default();
         let prepared = remove_plane(&lattice, &mut heights)
@@ -71,6 +72,23 @@ impl Spectral {
         let prepared = numbers(&spectrum, Some(notes));
         prepared.rms.or(prepared.beta)?;
         Some((Self { prepared, preparation: PREPARATION, untreated, window }, spectrum))
+    }
+}
+
+/// Says that a raster is so long that few waves fit across it.
+fn note_length(cells: &Grid, window: Window, notes: &mut Notes) {
+    const LONG: f64 = 4.0;
+    let [width, height] = cells.cell_size();
+    let sides = [window.columns as f64 * width, window.rows as f64 * height];
+    let ratio = sides[0].max(sides[1]) / sides[0].min(sides[1]);
+    if ratio >= LONG {
+        notes.add(
+            "spectrum",
+            format!(
+                "the terrain is {ratio:.1} times as long as wide, so few waves run across it, and \
+                 its numbers are hard to compare with those of a square"
+            ),
+        );
     }
 }
 

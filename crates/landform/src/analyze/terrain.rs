@@ -57,6 +57,11 @@ impl Terrain {
         if let Some(unit) = unit.as_ref().filter(|unit| *unit != "m") {
             notes.add("heights", format!("the values are in {unit}, and are taken for metres"));
         }
+        let plain = file.encoding.scale == 1.0 && file.encoding.offset == 0.0;
+        let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        if is_png && plain {
+            notes.add("heights", "the picture does not say what a grey means, so a step is 1 m");
+        }
         let place = file.raster.georeference.as_ref();
         Ok(Self {
             file: path.display().to_string(),

@@ -246,7 +246,7 @@ pub(crate) struct ReproduceArguments {
 
 #[derive(Args)]
 pub(crate) struct AnalyzeArguments {
-    /// Rasters (.tif, .asc, .npy) and lines (.csv, .geojson)
+    /// Rasters (.tif, .asc, .npy, grey .png) and lines (.csv, .geojson)
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// Print JSON instead of a table

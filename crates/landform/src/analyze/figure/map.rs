@@ -83,10 +83,13 @@ pub(super) fn view(pictured: &Pictured) -> Result<Panel, ViewError> {
     options.haze = 0.0;
     let image = render(&pictured.field()?, &options)?;
     let [x, y] = [[0.0, room[0]], [0.0, room[1]]];
-    let caption = match exaggeration {
+    let mut caption = match exaggeration {
         1.0 => "looking north-east, heights as they are".to_owned(),
         factor => format!("looking north-east, heights × {}", short(factor)),
     };
+    if pictured.known.contains(&false) {
+        caption += ", gaps lowered";
+    }
     Ok(Panel {
         title: "view".to_owned(),
         x: Axis { range: Some(x), ..Axis::default() },
