@@ -49,8 +49,7 @@ impl FlowDirections {
     /// See [`GridError`].
     pub fn over_filled(grid: &Grid, filled: &[f64]) -> Result<Self, GridError> {
         grid.check(filled)?;
-        let framed = Framed::new(grid, filled);
-        let mut directions = Self::of(grid, &framed);
+        let mut directions = Self::of(grid, &Framed::new(grid, filled));
         drain_flats(grid, filled, &mut directions.codes);
         Ok(directions)
     }
