@@ -17,12 +17,14 @@
 //! finite values for all the parameters that they accept, and fields without a seam on
 //! periodic axes.
 
+mod course;
 mod error;
 pub mod exact;
 mod faulting;
 mod fbm;
 mod fractal;
 mod hills;
+mod mask;
 mod midpoint;
 mod noise;
 mod place;
@@ -39,6 +41,7 @@ pub use faulting::{FaultProfile, FaultTrace, Faulting};
 pub use fbm::{AmplitudeLaw, SpectralFbm};
 pub use fractal::{Basis, Cascade, FractalNoise, OctaveShape, Warp};
 pub use hills::{Cone, GaussianHill};
+pub use mask::{KnownFractal, Mask, MaskSource};
 pub use midpoint::{MidpointDisplacement, Subdivision};
 pub use noise::{Distribution, WhiteNoise};
 pub use ramp::Ramp;

@@ -5,8 +5,9 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, ConstructionTree, Faulting, FractalNoise, GaussianHill, Generator, MidpointDisplacement,
-    Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform, WhiteNoise,
+    Cone, ConstructionTree, Faulting, FractalNoise, GaussianHill, Generator, Mask,
+    MidpointDisplacement, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform,
+    WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
@@ -23,6 +24,8 @@ macro_rules! scenario_names {
         /// Registers the initial conditions of this crate.
         pub fn register(registry: &mut Registry) {
             registry$(.initial::<$generator>())*;
+            // These read files, for which they want the folder of the scenario.
+            registry.initial::<ConstructionTree>().initial::<Mask>();
         }
     };
 }
@@ -39,11 +42,10 @@ scenario_names!(
     Sinusoid,
     Ridge,
     Cone,
-    GaussianHill,
-    ConstructionTree
+    GaussianHill
 );
 
 /// A refusal by a generator, at the parameter it is about.
-fn refusal(error: SynthError) -> Problem {
+pub(crate) fn refusal(error: SynthError) -> Problem {
     Problem::new(error.parameter(), error.to_string(), "")
 }

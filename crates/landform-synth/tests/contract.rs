@@ -21,6 +21,7 @@ fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json
         }
         "Faulting" => Box::new(serde_json::from_value::<Faulting>(parameters)?),
         "ConstructionTree" => Box::new(serde_json::from_value::<ConstructionTree>(parameters)?),
+        "Mask" => Box::new(serde_json::from_value::<Mask>(parameters)?),
         "SpectralFbm" => Box::new(serde_json::from_value::<SpectralFbm>(parameters)?),
         other => panic!("no generator {other}"),
     })
@@ -41,6 +42,7 @@ fn generators() -> Vec<(&'static str, schemars::Schema)> {
         ("MidpointDisplacement", schemars::schema_for!(MidpointDisplacement)),
         ("Faulting", schemars::schema_for!(Faulting)),
         ("ConstructionTree", schemars::schema_for!(ConstructionTree)),
+        ("Mask", schemars::schema_for!(Mask)),
         ("SpectralFbm", schemars::schema_for!(SpectralFbm)),
     ]
 }
@@ -125,8 +127,16 @@ fn only_random_fields_depend_on_the_seed() {
     for (name, _) in generators() {
         let generator = parse(name, json!({})).unwrap();
         let [first, second] = [1, 2].map(|seed| generator.generate(&lattice, seed).unwrap());
-        let even =
-            ["Uniform", "Ramp", "Sinusoid", "Cone", "GaussianHill", "Ridge", "ConstructionTree"];
+        let even = [
+            "Uniform",
+            "Ramp",
+            "Sinusoid",
+            "Cone",
+            "GaussianHill",
+            "Ridge",
+            "ConstructionTree",
+            "Mask",
+        ];
         assert_eq!(first == second, even.contains(&name), "{name}");
     }
 }
@@ -137,7 +147,8 @@ fn only_random_fields_depend_on_the_seed() {
 fn accepted_parameters_give_finite_fields() {
     let surfaces =
         ["SpectralFbm", "FractalNoise", "MidpointDisplacement", "Faulting", "ConstructionTree"];
-    let unclosed = ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting", "ConstructionTree"];
+    let unclosed =
+        ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting", "ConstructionTree", "Mask"];
     let mut fields = 0;
     for (name, schema) in generators() {
         for Number { name: parameter, limits, .. } in numbers(&schema) {

@@ -122,8 +122,17 @@ fn list_of(property: &Value) -> String {
     if let Some(items) = property["prefixItems"].as_array() {
         return format!("({})", items.iter().map(kind_of).collect::<Vec<_>>().join(", "));
     }
+    if let (Some(items), Some(count)) = (property.get("items"), fixed_length(property)) {
+        return format!("({})", vec![kind_of(items); count].join(", "));
+    }
     let items = property.get("items").map_or_else(|| "values".to_owned(), kind_of);
     format!("list of {items}")
+}
+
+/// Length of an array that has always the same: scenarios write it as a tuple.
+fn fixed_length(property: &Value) -> Option<usize> {
+    let length = property["maxItems"].as_u64()?;
+    (property["minItems"].as_u64() == Some(length)).then_some(length as usize)
 }
 
 /// A value in the notation of scenario files; `schema` tells names from texts.
@@ -132,7 +141,7 @@ fn ron_text(schema: &Value, value: &Value) -> String {
         Value::Null => "None".to_owned(),
         Value::String(name) if is_name(schema) => name.clone(),
         Value::Array(items) => {
-            let tuple = schema.get("prefixItems").is_some();
+            let tuple = schema.get("prefixItems").is_some() || fixed_length(schema).is_some();
             let item_schema = |index| {
                 schema.get("items").or(schema["prefixItems"].get(index)).unwrap_or(&Value::Null)
             };

@@ -1,5 +1,7 @@
 //! From the tree as written to the tree made ready.
 
+use std::path::Path;
+
 use landform_sim::random::RandomStream;
 
 use super::blend::BlendSurface;
@@ -13,28 +15,31 @@ use super::vertical::DeformSurface;
 use super::warp::WarpSurface;
 use super::weigh::WeighSurface;
 use super::{NAME, Node, Onto};
-use crate::SynthError;
 use crate::fractal::{Frame, NoiseSurface};
+use crate::mask::{MOST_PIXELS, MaskSurface};
+use crate::{Mask, SynthError};
 
 /// Most levels of a tree.
 const DEEPEST: usize = 50;
 /// Most nodes of a tree.
 const MOST_NODES: usize = 10_000;
-/// Most points of all curves of a tree.
+/// Most points of all curves and masks of a tree.
 const MOST_POINTS: usize = 100_000;
 
 /// Checks nodes and makes them ready.
-pub(super) struct Builder {
+pub(super) struct Builder<'a> {
     frame: Frame,
+    folder: &'a Path,
     seed: u64,
     nodes: usize,
     points: usize,
+    pixels: usize,
 }
 
-impl Builder {
-    /// A builder for noise with this seed.
-    pub fn new(frame: Frame, seed: u64) -> Self {
-        Self { frame, seed, nodes: 0, points: 0 }
+impl<'a> Builder<'a> {
+    /// A builder for noise with this seed and files relative to this folder.
+    pub fn new(frame: Frame, folder: &'a Path, seed: u64) -> Self {
+        Self { frame, folder, seed, nodes: 0, points: 0, pixels: 0 }
     }
 
     /// Makes the node at `path` ready, `level` levels below the tree itself.
@@ -62,6 +67,7 @@ impl Builder {
             }
             Node::Bell(bell) => boxed(bell.check().map(|()| *bell)),
             Node::Plane(plane) => boxed(PlaneSurface::new(plane)),
+            Node::Mask(mask) => boxed(self.mask(mask)),
             Node::Noise(noise) => boxed(NoiseSurface::new(*noise, &self.frame, seed)),
             Node::Blend(children) => {
                 let children = children.iter().enumerate();
@@ -74,7 +80,12 @@ impl Builder {
             Node::Add(onto) => return self.onto(Meeting::Add, onto, path, level),
             Node::Carve(onto) => return self.onto(Meeting::Carve, onto, path, level),
             Node::Raise(onto) => return self.onto(Meeting::Raise, onto, path, level),
-            Node::Weigh(weigh) => boxed(WeighSurface::new(weigh, below(&weigh.of, ".of")?)),
+            Node::Weigh(weigh) => {
+                let of = below(&weigh.of, ".of")?;
+                let mask = weigh.mask.as_ref().map(|mask| self.mask(mask)).transpose();
+                let mask = mask.map_err(|error| error.within("mask").within(path))?;
+                boxed(WeighSurface::new(weigh.weight, mask, of))
+            }
             Node::Place(place) => boxed(PlaceSurface::new(place, below(&place.of, ".of")?)),
             Node::Warp(warped) => {
                 let of = below(&warped.of, ".of")?;
@@ -101,9 +112,19 @@ impl Builder {
         Ok(Box::new(OntoSurface { meeting, ground, by }))
     }
 
+    /// Reads a mask.
+    fn mask(&mut self, mask: &Mask) -> Result<MaskSurface, SynthError> {
+        let mask = MaskSurface::new(mask, self.folder, self.frame.spacing)?;
+        let [points, pixels] = mask.parts();
+        self.pixels += pixels;
+        within(self.pixels, MOST_PIXELS, "pixels of masks")?;
+        self.count_points(points)?;
+        Ok(mask)
+    }
+
     fn count_points(&mut self, points: usize) -> Result<(), SynthError> {
         self.points += points;
-        within(self.points, MOST_POINTS, "points of curves")
+        within(self.points, MOST_POINTS, "points of curves and masks")
     }
 
     /// Counts a node and refuses trees that are too large.

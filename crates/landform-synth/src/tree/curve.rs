@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::course::Course;
 use super::region::Region;
 use super::surface::{Samples, Surface, falloff, falloff_slope};
 use super::{Bounds, NAME};
 use crate::SynthError;
+use crate::course::Course;
 use crate::error::{Checks, check_steps};
 
 /// A river bed, a valley, a dike or a ridge along a curve of straight pieces:
@@ -101,9 +101,11 @@ impl Surface for CurveSurface {
     fn sample(&self, points: &[[f64; 2]]) -> Samples {
         let mut samples = Samples::none(points.len());
         for (number, &point) in points.iter().enumerate() {
-            if let Some(distance) = self.course.distance(point, self.reach) {
+            if let Some(nearest) = self.course.nearest(point, self.reach) {
+                let distance = nearest.distance;
                 samples.weight[number] = falloff(distance * distance, self.reach);
-                samples.elevation[number] = self.course.height(point) + self.profile(distance);
+                let height = self.course.height(point, nearest);
+                samples.elevation[number] = height + self.profile(distance);
             }
         }
         samples

@@ -3,9 +3,9 @@
 mod blend;
 mod bounds;
 mod build;
-mod course;
 mod curve;
 mod disc;
+mod mask;
 mod node;
 mod noise;
 mod onto;
@@ -20,7 +20,11 @@ mod vertical;
 mod warp;
 mod weigh;
 
+use std::path::Path;
+
 use landform_graph::Lattice;
+use landform_sim::initial::{InitialCondition, InitialContext};
+use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +43,7 @@ pub use weigh::Weigh;
 use crate::error::Checks;
 use crate::fractal::Frame;
 use crate::place::fill_by_tiles;
+use crate::scenario::refusal;
 use crate::{Generator, SynthError};
 use build::Builder;
 use onto::{Meeting, OntoSurface};
@@ -54,7 +59,7 @@ const NAME: &str = "ConstructionTree";
 ///
 /// Every node of the tree gives an elevation `h(p)` and a weight `a(p)`, at least 0, for every
 /// place `p`: metres east and north of the south-western node of the lattice. Leaves are
-/// landforms (`Disc`, `Curve`, `Squig`, `Bell`, `Plane`, `Noise`), the other nodes put them together
+/// landforms (`Disc`, `Curve`, `Squig`, `Bell`, `Plane`, `Noise`, `Mask`), the other nodes put them together
 /// (`Blend`, `Replace`, `Add`, `Carve`, `Raise`) or change them (`Weigh`, `Place`, `Warp`,
 /// `Deform`). Where the root has a weight below 1, that share of it replaces `ground_m`.
 ///
@@ -89,11 +94,24 @@ impl ConstructionTree {
     /// [`SynthError`] if a parameter is out of its range or the tree is too large. The message
     /// names the node.
     pub fn terrain(&self, spacing_m: f64, seed: u64) -> Result<Terrain, SynthError> {
+        self.terrain_from(Path::new(""), spacing_m, seed)
+    }
+
+    /// As [`ConstructionTree::terrain`], with the files of masks relative to `folder`.
+    ///
+    /// # Errors
+    /// As there, and if a file cannot be read.
+    pub fn terrain_from(
+        &self,
+        folder: &Path,
+        spacing_m: f64,
+        seed: u64,
+    ) -> Result<Terrain, SynthError> {
         let checks = Checks(NAME);
         checks.length("spacing_m", spacing_m, f64::MIN_POSITIVE)?;
         checks.elevation("ground_m", self.ground_m)?;
         let frame = Frame::open(spacing_m);
-        let root = Builder::new(frame, seed).build(&self.of, "of", 1)?;
+        let root = Builder::new(frame, folder, seed).build(&self.of, "of", 1)?;
         let ground = Box::new(PlaneSurface::level(self.ground_m));
         Ok(Terrain { root: OntoSurface { meeting: Meeting::Replace, ground, by: root } })
     }
@@ -101,6 +119,26 @@ impl ConstructionTree {
 
 impl Generator for ConstructionTree {
     fn generate(&self, lattice: &Lattice, seed: u64) -> Result<Vec<f64>, SynthError> {
+        self.heights_from(Path::new(""), lattice, seed)
+    }
+}
+
+impl InitialCondition for ConstructionTree {
+    const NAME: &'static str = NAME;
+
+    fn values(&self, context: &InitialContext<'_>) -> Result<Vec<f64>, Problem> {
+        self.heights_from(context.folder, &context.domain.lattice, context.seed).map_err(refusal)
+    }
+}
+
+impl ConstructionTree {
+    /// One height a node.
+    fn heights_from(
+        &self,
+        folder: &Path,
+        lattice: &Lattice,
+        seed: u64,
+    ) -> Result<Vec<f64>, SynthError> {
         Checks(NAME).plane(lattice)?;
         for (axis, name) in ['x', 'y'].into_iter().enumerate() {
             if lattice.is_periodic(axis) {
@@ -108,7 +146,7 @@ impl Generator for ConstructionTree {
                 return Err(SynthError::DoesNotClose { generator: NAME, axis: name, remedy });
             }
         }
-        let terrain = self.terrain(lattice.spacing(), seed)?;
+        let terrain = self.terrain_from(folder, lattice.spacing(), seed)?;
         Ok(fill_by_tiles(
             lattice,
             |_| (),

@@ -10,7 +10,7 @@ use super::build::Builder;
 use super::region::Region;
 use super::surface::Surface;
 use super::*;
-use crate::{Basis, Cascade, FractalNoise, OctaveShape, Warp};
+use crate::{Basis, Cascade, FractalNoise, Mask, MaskSource, OctaveShape, Warp};
 
 /// Side of the square on which trees are looked at, and the spacing of their noise.
 const SIDE: f64 = 1000.0;
@@ -18,7 +18,7 @@ const SPACING: f64 = 10.0;
 const SQUARE: Region = Region { low: [0.0; 2], high: [SIDE; 2] };
 
 fn ready(node: &Node) -> Box<dyn Surface> {
-    Builder::new(Frame::open(SPACING), 5).build(node, "of", 1).unwrap()
+    Builder::new(Frame::open(SPACING), Path::new(""), 5).build(node, "of", 1).unwrap()
 }
 
 fn at(surface: &dyn Surface, point: [f64; 2]) -> [f64; 2] {
@@ -324,6 +324,13 @@ impl Dice {
     }
 }
 
+fn random_mask(dice: &mut Dice) -> Option<Mask> {
+    let ring = (0..7).map(|_| dice.place()).collect();
+    let edge_m = Some(dice.between(10.0, 200.0));
+    let mask = Mask { of: MaskSource::Rings(vec![ring]), edge_m, ..Default::default() };
+    (dice.between(0.0, 1.0) < 0.5).then_some(mask)
+}
+
 fn random_leaf(dice: &mut Dice) -> Node {
     let height_m = dice.between(-50.0, 100.0);
     match dice.between(0.0, 6.0) as usize {
@@ -368,7 +375,11 @@ fn random_node(dice: &mut Dice, levels: usize) -> Node {
     let of = |dice: &mut Dice| Box::new(random_node(dice, levels - 1));
     match dice.between(0.0, 9.0) as usize {
         0 | 1 => Node::Blend((0..3).map(|_| random_node(dice, levels - 1)).collect()),
-        2 => Node::Weigh(Weigh { of: of(dice), weight: dice.between(0.2, 3.0) }),
+        2 => Node::Weigh(Weigh {
+            of: of(dice),
+            weight: dice.between(0.2, 3.0),
+            mask: random_mask(dice),
+        }),
         3 => Node::Place(Place {
             of: of(dice),
             at_m: dice.place().map(|x| 0.3 * x),
@@ -482,7 +493,7 @@ fn bad_trees_are_refused_where_they_are_bad() {
             "high_m is 1",
         ),
         (Node::Blend(vec![level(0.0); 10_000]), "more than 10000 nodes"),
-        (curve(vec![[0.0; 3]; 100_001], vec![]), "more than 100000 points of curves"),
+        (curve(vec![[0.0; 3]; 100_001], vec![]), "more than 100000 points of curves and masks"),
     ] {
         let refused = refusal(node);
         assert!(refused.contains(message), "{refused}\n{message}");
@@ -493,7 +504,7 @@ fn bad_trees_are_refused_where_they_are_bad() {
 fn deep_trees_are_refused() {
     let mut node = level(0.0);
     for _ in 0..10_000 {
-        node = Node::Weigh(Weigh { of: Box::new(node), weight: 1.0 });
+        node = Node::Weigh(Weigh { of: Box::new(node), weight: 1.0, mask: None });
     }
     assert!(refusal(node).contains("more than 50 levels"));
     let mut node = level(0.0);

@@ -10,7 +10,7 @@ const MOST: f64 = 32.0;
 /// A curve of straight pieces with a height, made ready for questions about places beside it.
 /// Blocks of pieces are passed over where their boxes are too far away to matter.
 #[derive(Debug)]
-pub(super) struct Course {
+pub(crate) struct Course {
     pieces: Vec<Piece>,
     blocks: Vec<Block>,
     /// Lowest and highest point.
@@ -23,6 +23,7 @@ pub(super) struct Course {
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     from: [f64; 2],
+    to: [f64; 2],
     /// Unit vector towards the end.
     along: [f64; 2],
     length: f64,
@@ -62,6 +63,11 @@ impl Course {
         Some(Self { pieces, blocks, heights, slope })
     }
 
+    /// Number of pieces, which is that of the points of a ring.
+    pub fn points(&self) -> usize {
+        self.pieces.len()
+    }
+
     /// Lowest and highest point.
     pub fn heights(&self) -> [f64; 2] {
         self.heights
@@ -81,46 +87,84 @@ impl Course {
         [pick(|block| block.low, f64::min), pick(|block| block.high, f64::max)]
     }
 
-    /// The blocks with their pieces.
-    fn blocks(&self) -> impl Iterator<Item = (&Block, &[Piece])> {
-        self.blocks.iter().zip(self.pieces.chunks(BLOCK))
+    /// The pieces of a block.
+    fn pieces(&self, block: usize) -> &[Piece] {
+        let start = block * BLOCK;
+        &self.pieces[start..self.pieces.len().min(start + BLOCK)]
     }
 
-    /// Distance to the curve, if it is less than `reach`.
-    pub fn distance(&self, point: [f64; 2], reach: f64) -> Option<f64> {
-        let mut nearest = reach * reach;
-        for (block, pieces) in self.blocks() {
-            if block.distance_squared(point) < nearest {
-                let distances = pieces.iter().map(|piece| piece.distance_squared(point));
-                nearest = distances.fold(nearest, f64::min);
+    /// Distance to the curve, if it is less than `reach`, and the block of the nearest place.
+    pub fn nearest(&self, point: [f64; 2], reach: f64) -> Option<Nearest> {
+        let mut squared = reach * reach;
+        let mut nearest = None;
+        for (number, block) in self.blocks.iter().enumerate() {
+            if block.distance_squared(point) < squared {
+                for piece in self.pieces(number) {
+                    let distance_squared = piece.distance_squared(point);
+                    if distance_squared < squared {
+                        squared = distance_squared;
+                        nearest = Some(number);
+                    }
+                }
             }
         }
-        (nearest < reach * reach).then(|| nearest.sqrt())
+        nearest.map(|block| Nearest { distance: squared.sqrt(), block })
+    }
+
+    /// How often a ray to the east from a point meets the curve.
+    pub fn crossings(&self, [x, y]: [f64; 2]) -> usize {
+        let meets =
+            |block: &Block| (block.low[1]..=block.high[1]).contains(&y) && block.high[0] > x;
+        let blocks = self.blocks.iter().enumerate().filter(|(_, block)| meets(block));
+        blocks.map(|(number, _)| self.crossings_of(number, [x, y])).sum()
+    }
+
+    fn crossings_of(&self, block: usize, [x, y]: [f64; 2]) -> usize {
+        let crosses = |piece: &&Piece| {
+            // A corner on the ray belongs to the piece above it alone.
+            let [from, to] = [piece.from, piece.to];
+            let climbs = (from[1] > y) != (to[1] > y);
+            climbs && from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0]) > x
+        };
+        self.pieces(block).iter().filter(crosses).count()
     }
 
     /// Height of the curve at a place on it, and half-way between both extensions beside it.
-    pub fn height(&self, point: [f64; 2]) -> f64 {
+    /// Looks at the block of the nearest place first, after which few others can matter.
+    pub fn height(&self, point: [f64; 2], nearest: Nearest) -> f64 {
         let [lowest, highest] = self.heights;
         if self.slope == 0.0 {
             return lowest;
         }
-        let [mut above, mut below] = [f64::INFINITY, f64::NEG_INFINITY];
-        for (block, pieces) in self.blocks() {
+        let mut extremes = [f64::INFINITY, f64::NEG_INFINITY];
+        self.extend(point, nearest.block, &mut extremes);
+        for (number, block) in self.blocks.iter().enumerate() {
             let margin = self.slope * block.distance_squared(point).sqrt();
-            let can_be_least = block.heights[0] + margin < above;
-            let can_be_most = block.heights[1] - margin > below;
-            for piece in pieces {
-                let [along, aside] = piece.coordinates(point);
-                if can_be_least {
-                    above = above.min(piece.cone(along, aside, -aside * piece.shift, self.slope));
-                }
-                if can_be_most {
-                    below = below.max(piece.cone(along, aside, aside * piece.shift, -self.slope));
-                }
+            let matters =
+                block.heights[0] + margin < extremes[0] || block.heights[1] - margin > extremes[1];
+            if matters && number != nearest.block {
+                self.extend(point, number, &mut extremes);
             }
         }
-        (0.5 * (above + below)).clamp(lowest, highest)
+        (0.5 * (extremes[0] + extremes[1])).clamp(lowest, highest)
     }
+
+    /// Takes the pieces of a block into the least and the greatest of all cones at a point.
+    fn extend(&self, point: [f64; 2], block: usize, [above, below]: &mut [f64; 2]) {
+        for piece in self.pieces(block) {
+            let [along, aside] = piece.coordinates(point);
+            *above = above.min(piece.cone(along, aside, -aside * piece.shift, self.slope));
+            *below = below.max(piece.cone(along, aside, aside * piece.shift, -self.slope));
+        }
+    }
+}
+
+/// Where a curve is nearest to a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// Distance in metres.
+    pub distance: f64,
+    block: usize,
 }
 
 /// The steepest slope in a straight line from the beginning of any piece to that of any other, as
@@ -154,6 +198,7 @@ impl Piece {
         let length = east.hypot(north);
         (length > 0.0).then(|| Self {
             from: [from[0], from[1]],
+            to: [to[0], to[1]],
             along: [east / length, north / length],
             length,
             height: from[2],
@@ -179,7 +224,8 @@ impl Piece {
     /// the place on the piece which is `shift` from the nearest.
     fn cone(&self, along: f64, aside: f64, shift: f64, slope: f64) -> f64 {
         let foot = (along + shift).clamp(0.0, self.length);
-        self.height + self.rise * foot + slope * (along - foot).hypot(aside)
+        let beyond = along - foot;
+        self.height + self.rise * foot + slope * (beyond * beyond + aside * aside).sqrt()
     }
 }
 
@@ -191,13 +237,13 @@ impl Block {
             heights: [f64::INFINITY, f64::NEG_INFINITY],
         };
         for piece in pieces {
-            for share in [0.0, piece.length] {
-                let height = piece.height + share * piece.rise;
+            for height in [piece.height, piece.height + piece.length * piece.rise] {
                 block.heights = [block.heights[0].min(height), block.heights[1].max(height)];
-                for axis in 0..2 {
-                    let place = piece.from[axis] + share * piece.along[axis];
-                    block.low[axis] = block.low[axis].min(place);
-                    block.high[axis] = block.high[axis].max(place);
+            }
+            for place in [piece.from, piece.to] {
+                for (axis, x) in place.into_iter().enumerate() {
+                    block.low[axis] = block.low[axis].min(x);
+                    block.high[axis] = block.high[axis].max(x);
                 }
             }
         }
@@ -260,13 +306,13 @@ mod tests {
             let n = f64::from(number);
             let place = [(n * 37.7) % 1100.0 - 50.0, (n * 13.3) % 400.0 - 200.0];
             let [distance, height] = dense(&points, course.slope(), place);
-            let found = course.distance(place, 1e6).unwrap();
-            assert!((found - distance).abs() < 2e-3, "{place:?} {found} {distance}");
+            let nearest = course.nearest(place, 1e6).unwrap();
+            assert!((nearest.distance - distance).abs() < 2e-3, "{place:?} {distance}");
             let [lowest, highest] = course.heights();
-            let found = course.height(place);
+            let found = course.height(place, nearest);
             assert!((found - height.clamp(lowest, highest)).abs() < 1e-3, "{found} {height}");
         }
-        assert_eq!(course.distance([500.0, 500.0], 10.0), None);
+        assert!(course.nearest([500.0, 500.0], 10.0).is_none());
     }
 
     #[test]
@@ -288,16 +334,20 @@ mod tests {
         assert_eq!(Course::new(&hairpin).unwrap().slope(), MOST * 0.05);
     }
 
+    fn height(course: &Course, point: [f64; 2]) -> f64 {
+        course.height(point, course.nearest(point, 1e6).unwrap())
+    }
+
     #[test]
     fn the_curve_keeps_its_height() {
         let points = winding();
         let course = Course::new(&points).unwrap();
         for pair in points.windows(2) {
             let middle = [0, 1, 2].map(|axis| 0.5 * (pair[0][axis] + pair[1][axis]));
-            assert!((course.height([middle[0], middle[1]]) - middle[2]).abs() < 1e-9);
+            assert!((height(&course, [middle[0], middle[1]]) - middle[2]).abs() < 1e-9);
         }
         // Beside a straight piece it is the height of the nearest place.
         let straight = Course::new(&[[0.0, 0.0, 0.0], [1000.0, 0.0, 50.0]]).unwrap();
-        assert!((straight.height([500.0, 120.0]) - 25.0).abs() < 1e-9);
+        assert!((height(&straight, [500.0, 120.0]) - 25.0).abs() < 1e-9);
     }
 }
