@@ -100,6 +100,34 @@ proptest! {
     }
 }
 
+/// Most of a large map is passed over when only a few nodes change.
+#[test]
+fn what_no_change_concerns_is_passed_over_rightly() {
+    let boundary = [Boundary::Periodic, Boundary::Open];
+    for connectivity in [Connectivity::FourEight, Connectivity::Four] {
+        let lattice = Lattice::plane([150, 90], 1.0, connectivity, boundary).unwrap();
+        let mut land: Vec<u8> = (0..13_500).map(|node| u8::from(node >= 1500)).collect();
+        let mut rock = any_resistance(&lattice, 3);
+        let perimeter = Perimeter::Contiguous { radius_m: 6.2 };
+        let settings =
+            CoastSettings { force: 0.45, attenuation: 0.2, perimeter, ..Default::default() };
+        let mut coast = Coast::new(&lattice, settings.clone(), &land, &rock).unwrap();
+        let mut iterations = 0;
+        loop {
+            let mut again = Coast::new(&lattice, settings.clone(), &land, &rock).unwrap();
+            let mut others = (land.clone(), rock.clone());
+            let anew = again.step(&mut others.0, &mut others.1, 1).unwrap();
+            let events = coast.step(&mut land, &mut rock, 1).unwrap();
+            assert_eq!(events.eroded, anew.eroded, "iteration {iterations}");
+            iterations += 1;
+            if events.eroded.is_empty() {
+                break;
+            }
+        }
+        assert!(iterations > 10, "{iterations}");
+    }
+}
+
 /// Figure 4.9 of the thesis: a coast node of the 4-8 mesh falls; it leaves an artifact, and its
 /// neighbours that were inland become the coast.
 #[test]

@@ -1,8 +1,11 @@
 //! How much shore hangs together with a node within a radius.
 
+use landform_graph::Lattice;
+
 use super::Shore;
 use super::compass::{SIDES, STEPS, diagonal, edges, left_of};
 use super::shore_lines::{Line, ShoreLines, side_of};
+use super::vicinity::Vicinity;
 
 /// Places or boxes that a box covers.
 const BRANCH: usize = 8;
@@ -76,6 +79,8 @@ impl Run {
 pub(super) struct Arcs {
     lines: ShoreLines,
     squared_radius: i64,
+    /// Where the latest refresh may have changed what is found.
+    changed: Vicinity,
     /// Length in parts of the shore before each place.
     before: Vec<u64>,
     boxes: Vec<Vec<Extent>>,
@@ -83,10 +88,11 @@ pub(super) struct Arcs {
 
 impl Arcs {
     /// Searches within `radius` spacings.
-    pub(super) fn new(nodes: usize, radius: f64) -> Self {
+    pub(super) fn new(lattice: &Lattice, radius: f64) -> Self {
         Self {
-            lines: ShoreLines::new(nodes),
+            lines: ShoreLines::new(lattice.node_count()),
             squared_radius: (radius * radius) as i64,
+            changed: Vicinity::everywhere(lattice, radius),
             before: Vec::new(),
             boxes: Vec::new(),
         }
@@ -94,6 +100,7 @@ impl Arcs {
 
     /// Makes the lines follow the shore; `coast` as for [`ShoreLines::trace`].
     pub(super) fn refresh(&mut self, shore: &Shore, coast: &[u32]) {
+        self.changed.spread();
         self.lines.trace(shore, coast);
         let at = self.lines.at();
         self.before.clear();
@@ -112,6 +119,22 @@ impl Arcs {
             let above = boxes.chunks_exact(BRANCH).map(all).collect();
             self.boxes.push(std::mem::replace(&mut boxes, above));
         }
+    }
+
+    /// Forgets where the shore changed before.
+    pub(super) fn forget_changes(&mut self) {
+        self.changed.clear();
+    }
+
+    /// The shore at a place changes, or the strength of its node.
+    pub(super) fn change(&mut self, at: [usize; 2]) {
+        self.changed.change(at);
+    }
+
+    /// Whether the latest changes may concern the node at a place. A node that withstood the sea
+    /// before and is none of these withstands it again.
+    pub(super) fn may_differ(&self, at: [usize; 2]) -> bool {
+        self.changed.contains(at)
     }
 
     /// Length in parts of the shore that hangs together with a coast node within the radius.

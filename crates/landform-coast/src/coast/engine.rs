@@ -115,7 +115,7 @@ impl Coast {
             Perimeter::Whole => Local::Whole,
             Perimeter::Near { radius_m } => Local::Near(DiscSums::new(lattice, radius_m / spacing)),
             Perimeter::Contiguous { radius_m } => {
-                Local::Contiguous(Box::new(Arcs::new(nodes, radius_m / spacing)))
+                Local::Contiguous(Box::new(Arcs::new(lattice, radius_m / spacing)))
             }
         };
         let mut coast = Self {
@@ -247,10 +247,19 @@ impl Coast {
             let rule = self.rules.of(node as usize);
             // No perimeter can raise the force above this.
             if strength < rule.force
+                && self.may_differ(node as usize)
                 && strength < rule.force_at(self.perimeter(node as usize, initial))
             {
                 self.events.eroded.push(node);
             }
+        }
+    }
+
+    /// Whether a coast node may fall that withstood the sea in the iteration before.
+    fn may_differ(&self, node: usize) -> bool {
+        match &self.local {
+            Local::Contiguous(arcs) => arcs.may_differ(self.shore.place(node)),
+            _ => true,
         }
     }
 
@@ -305,6 +314,10 @@ impl Coast {
     /// Brings marks, lengths and strengths up to date around what happened.
     fn follow(&mut self, land: &[u8], resistance: &[f64]) {
         let mut touched = std::mem::take(&mut self.touched);
+        if let Local::Contiguous(arcs) = &mut self.local {
+            arcs.forget_changes();
+            touched.iter().for_each(|&node| arcs.change(self.shore.place(node as usize)));
+        }
         for node in touched.drain(..) {
             let node = node as usize;
             self.is_touched[node] = false;

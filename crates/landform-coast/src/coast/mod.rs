@@ -26,6 +26,7 @@ mod shore;
 mod shore_lines;
 #[cfg(test)]
 mod testing;
+mod vicinity;
 mod wear;
 
 pub use engine::{Coast, Events};
