@@ -12,7 +12,8 @@ const MOST_NODES: usize = 64;
 const MOST_ITERATIONS: usize = 4;
 
 /// The `--set` arguments that make a scenario small: its grid, its stages and its perspective
-/// pictures. A raster domain gets `raster`, a file of a test, instead of its own.
+/// pictures. A grid whose coarse shape is given keeps its size. A raster domain gets `raster`, a
+/// file of a test, instead of its own.
 pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
     let text = fs::read_to_string(scenario).expect("the scenario can be read");
     let tree = Tree::parse(&text);
@@ -22,7 +23,7 @@ pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
     if domain.starts_with("Raster") {
         cuts.push(format!("domain.path={:?}", raster.display().to_string()));
         cuts.push("domain.every=1".to_owned());
-    } else {
+    } else if !text.contains("coarse_m: ") {
         let [width, height] = [0, 1].map(|axis| {
             let nodes = value(&format!("domain.size[{axis}]")).and_then(|text| text.parse().ok());
             nodes.unwrap_or(MOST_NODES).min(MOST_NODES)

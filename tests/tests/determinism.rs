@@ -34,6 +34,7 @@ const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
+const PLATE: (&str, &str) = ("Eight", "(Open, Open)");
 const TRAY: (&str, &str) = ("Four", "(Open, Open)");
 
 const fn case(
@@ -89,6 +90,8 @@ const GOLDEN: &[Case] = &[
     case("CorrosionLike()", &[HILLS], TORUS, 0x07ae_c067_db3e_bdd2),
     case("CorrosionLike()", &[HILLS], ISLAND, 0x9d43_6ba6_df1b_bfec),
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
+    case("SlopeAreaErosion()", &[HILLS], PLATE, 0xc78e_4962_62ff_bfaa),
+    case("SlopeAreaErosion(pits: Spill)", &[HILLS], PLATE, 0xad69_a2e1_f4c9_0ed2),
     case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
     case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
     case("Pipes()", &[HILLS, LAKE], ISLAND, 0x6a15_acb4_bd24_52f0),
@@ -130,6 +133,7 @@ impl Case {
             "ForestFire" => "forest",
             "Pipes" => "water",
             "Trails" => "wear",
+            "SlopeAreaErosion" => "drainage_area",
             _ => "surface",
         }
     }

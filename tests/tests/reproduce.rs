@@ -71,6 +71,62 @@ fn numbers_stand_beside_those_of_the_thesis() {
     assert_eq!(single["stages"][0]["metrics"]["sand_maximum_m"].as_f64(), Some(seeds[1]));
 }
 
+/// Runs that differ in parameters, several runs of one name, and one figure of all pictures.
+#[test]
+fn runs_are_changed_repeated_and_put_together() {
+    let scratch = Scratch::new("reproduce_set");
+    scratch.write(
+        "ramp.ron",
+        "(title: \"ramp\", domain: Grid(size: (20, 20), spacing_m: 1.0),
+          initial: [(field: \"bed\", from: Cone(height_m: 5.0, radius_m: 8.0))], stages: [],
+          metrics: [FieldStatistic(statistic: Maximum)], outputs: [Picture(file: \"p.png\")])",
+    );
+    let source =
+        |run: &str| format!("(run: \"{run}\", stage: \"initial\", metric: \"surface_maximum_m\")");
+    let [low, high, many] = ["low", "high", "many"].map(source);
+    let targets = format!(
+        "(id: \"figure 0/1\", title: \"cones\", seeds: 2, columns: 2,
+          runs: [
+            (name: \"low\", scenario: \"ramp.ron\"),
+            (name: \"high\", scenario: \"ramp.ron\", set: [\"initial[0].from.height_m=50.0\"]),
+            (name: \"many\", scenario: \"ramp.ron\",
+             over: (path: \"initial[0].from.height_m\", from: 10.0, to: 30.0, count: 3)),
+          ],
+          targets: [
+            (name: \"difference\", value: Difference({high}, {low}), band: AtLeast(30.0)),
+            (name: \"smallest\", value: Smallest{many}, band: AtMost(10.0)),
+            (name: \"ratio\", value: Ratio({high}, {low}), band: Within(9.999, 10.001)),
+            (name: \"largest\", value: Largest{many}, thesis: 30.0, band: Printed),
+          ])"
+    );
+    scratch.write("c.targets.ron", &targets);
+    let reproduce = || Program::within(scratch.folder()).line("reproduce c.targets.ron -o o");
+    let told = reproduce().run().good();
+    assert!(told.contains("10.000") && !told.contains("Missed"), "{told}");
+    let report = fs::read_to_string(scratch.path("o/report.json")).expect("a report");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let value = |target: usize| report["figures"][0]["targets"][target]["value"].as_f64().unwrap();
+    let share = value(1) / 10.0;
+    assert!((0.8..=1.0).contains(&share), "the top lies between nodes: {share}");
+    for (target, height) in [(0, 45.0), (1, 10.0), (3, 30.0)] {
+        assert!((value(target) - share * height).abs() < 1e-9, "{target}: {}", value(target));
+    }
+    let pictures = report["figures"][0]["pictures"].as_array().expect("pictures");
+    let expected = ["figure_0_1.png", "low/p.png", "high/p.png", "many/p.png"];
+    assert_eq!(pictures.iter().map(|p| p.as_str().unwrap()).collect::<Vec<_>>(), expected);
+    assert!(expected.iter().all(|picture| scratch.path("o").join(picture).is_file()));
+    for (from, to, part) in [
+        ("Smallest(run", "Metric(run", "several runs are called `many`"),
+        ("count: 3", "count: 0", "`over` wants a `count`"),
+        ("height_m=50.0", "height_m", "no PATH=VALUE"),
+        ("height_m=50.0", "hight_m=50.0", "did you mean"),
+    ] {
+        scratch.write("c.targets.ron", targets.replace(from, to));
+        let message = reproduce().line("--force").run().refused();
+        assert!(message.contains(part), "{to}: no `{part}` in\n{message}");
+    }
+}
+
 #[test]
 fn target_files_that_cannot_work_are_refused_before_the_first_run() {
     for (from, to, parts) in [

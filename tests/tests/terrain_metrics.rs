@@ -99,3 +99,17 @@ fn waves_that_are_missing_are_counted() {
     assert!(shares.is_sorted_by(|few, many| few > many), "{shares:?}");
     assert!(shares[0] > 90.0 && shares[3] < 1.0, "{shares:?}");
 }
+
+/// Figure 2.5: without displacement only the interpolant of the coarse shape is left.
+#[test]
+fn diamond_square_leaves_creases() {
+    let sharpest = |subdivision: &str| {
+        let peak = "coarse_m: [[0.0, 0.0, 0.0], [0.0, 80.0, 0.0], [0.0, 0.0, 0.0]]";
+        let initial = format!(
+            "MidpointDisplacement(amplitude_m: 0.0, levels: 5, subdivision: {subdivision}, {peak})"
+        );
+        let found = measured("size: (65, 65)", &initial, "Creases(cell_nodes: 32)");
+        value(&found, "crease_largest")
+    };
+    assert!(sharpest("DiamondSquare") >= 2.0 * sharpest("FourEight"));
+}

@@ -25,6 +25,7 @@
 //! [`hydrology`] follows water over a [`grid`](grid::Grid): depressions, flow directions,
 //! contributing areas and their scaling laws. [`derivatives`] measures slope, aspect and curvature.
 
+mod creases;
 pub mod derivatives;
 mod detrend;
 mod dimension;
@@ -42,6 +43,7 @@ mod spectrum;
 mod summary;
 mod triple_log;
 
+pub use creases::Creases;
 pub use detrend::{remove_plane, taper};
 pub use dimension::{
     Dimension, DimensionError, RangeError, ScalePoint, ScaleRange, box_dimension,

@@ -43,8 +43,15 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// Why the stage is over, if it is. `ends` are the ends of the stage's processes.
-    pub(crate) fn reason(&self, iteration: u64, ends: &[u64], series: &Series) -> Option<String> {
+    /// Why the stage is over after `iteration` iterations, `tick` of the whole run, if it is.
+    /// `ends` are the ends of the stage's processes. Metrics that were measured earlier say
+    /// nothing about now.
+    pub(crate) fn reason(
+        &self,
+        [iteration, tick]: [u64; 2],
+        ends: &[u64],
+        series: &Series,
+    ) -> Option<String> {
         match self {
             Self::Finished => ends
                 .iter()
@@ -55,21 +62,24 @@ impl Stop {
                 (iteration >= *count).then(|| format!("{count} iterations are done"))
             }
             Self::Below { metric, value } => {
-                let latest = series.latest(metric).filter(|latest| latest < value)?;
+                let latest = series.fresh(metric, tick).filter(|latest| latest < value)?;
                 Some(format!("{metric} = {latest} fell below {value}"))
             }
             Self::Above { metric, value } => {
-                let latest = series.latest(metric).filter(|latest| latest > value)?;
+                let latest = series.fresh(metric, tick).filter(|latest| latest > value)?;
                 Some(format!("{metric} = {latest} rose above {value}"))
             }
             Self::Steady { metric, change, measurements } => {
+                series.fresh(metric, tick)?;
                 let none = [f64::INFINITY, f64::NEG_INFINITY];
                 let widen = |[low, high]: [f64; 2], value: f64| [value.min(low), value.max(high)];
                 let [low, high] = series.recent(metric, *measurements)?.fold(none, widen);
                 (high - low <= change * high.abs().max(low.abs()))
                     .then(|| format!("{metric} is steady at {high}"))
             }
-            Self::Any(rules) => rules.iter().find_map(|rule| rule.reason(iteration, ends, series)),
+            Self::Any(rules) => {
+                rules.iter().find_map(|rule| rule.reason([iteration, tick], ends, series))
+            }
         }
     }
 

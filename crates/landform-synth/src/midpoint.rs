@@ -14,6 +14,10 @@ use crate::{Generator, SynthError};
 /// How a coarse surface becomes a finer one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 pub enum Subdivision {
+    /// New vertices in the middle of squares are the mean of their four corners, those on edges
+    /// the mean of their two ends, old ones stay: linear interpolation, which leaves creases on
+    /// all lines of the coarse grid.
+    Linear,
     /// New vertices are the mean of four, old ones stay (Fournier, Fussell and Carpenter 1982):
     /// leaves peaks and creases.
     DiamondSquare,
@@ -28,7 +32,7 @@ pub enum Subdivision {
 ///
 /// A coarse grid is made finer in half steps: first a vertex appears in the middle of every
 /// square, then one in the middle of every diamond that this makes. A new vertex is the mean of
-/// the four next to it plus a random number of standard deviation `amplitude_m (d / D)^hurst`,
+/// the four next to it (in linear subdivision, on edges, of their two ends) plus a random number of standard deviation `amplitude_m (d / D)^hurst`,
 /// where `d` is the distance to the four and `D` the spacing of the coarse grid. In 4-8
 /// subdivision old vertices then become half of what they were plus an eighth of each of their
 /// four neighbours. Open borders are mirrors.
@@ -183,6 +187,17 @@ impl Mesh {
         inside as usize
     }
 
+    /// Mean of the heights of the two vertices at `reach` from a vertex along an axis.
+    #[inline]
+    fn between(&self, heights: &[f64], [x, y]: [usize; 2], axis: usize, reach: usize) -> f64 {
+        let reach = reach as isize;
+        let height = |distance: isize| match axis {
+            0 => heights[self.moved(0, x, distance) + self.size[0] * y],
+            _ => heights[x + self.size[0] * self.moved(1, y, distance)],
+        };
+        0.5 * (height(-reach) + height(reach))
+    }
+
     /// Sum of the heights of the four vertices at `reach` from a vertex.
     #[inline]
     fn around(&self, heights: &[f64], [x, y]: [usize; 2], new: NewVertices, reach: usize) -> f64 {
@@ -251,8 +266,13 @@ impl Refinement {
                     (NewVertices::Diamonds, 1, 1) => self.smoothed(mesh, heights, [x, y], old),
                     (NewVertices::Squares, 0, 1) | (NewVertices::Squares, 1, 0) => continue,
                     _ => {
-                        let sum = mesh.around(heights, [x, y], self.new, self.reach);
-                        0.25 * sum + displacement(x + width * y)
+                        let mean = match (self.subdivision, self.new) {
+                            (Subdivision::Linear, NewVertices::Diamonds) => {
+                                mesh.between(heights, [x, y], 1 - column, self.reach)
+                            }
+                            _ => 0.25 * mesh.around(heights, [x, y], self.new, self.reach),
+                        };
+                        mean + displacement(x + width * y)
                     }
                 };
             }
@@ -263,7 +283,7 @@ impl Refinement {
     fn smoothed(&self, mesh: &Mesh, heights: &[f64], [x, y]: [usize; 2], old: f64) -> f64 {
         let of_coarse_shape = x % self.coarse == 0 && y % self.coarse == 0;
         let stays = match self.subdivision {
-            Subdivision::DiamondSquare => true,
+            Subdivision::DiamondSquare | Subdivision::Linear => true,
             Subdivision::FourEightFrozen => of_coarse_shape,
             Subdivision::FourEight => false,
         };
@@ -309,6 +329,29 @@ mod tests {
             }
         }
         finer
+    }
+
+    /// Without displacement every cell of the coarse grid is a bilinear patch.
+    #[test]
+    fn linear_subdivision_interpolates_between_the_corners_of_a_cell() {
+        let surface = MidpointDisplacement {
+            amplitude_m: 0.0,
+            levels: 3,
+            subdivision: Subdivision::Linear,
+            coarse_m: vec![vec![0.0, 8.0, -4.0], vec![16.0, 32.0, 0.0], vec![8.0, 56.0, -32.0]],
+            ..Default::default()
+        };
+        for (boundary, side) in [(Boundary::Open, 17), (Boundary::Periodic, 24)] {
+            let found = surface.generate(&lattice([side, side], boundary), 1).unwrap();
+            for (node, height) in found.iter().enumerate() {
+                let [x, y] = [node % side, node / side];
+                let corner = |column: usize, row: usize| surface.coarse_m[row % 3][column % 3];
+                let [east, south] = [x % 8, y % 8].map(|part| part as f64 / 8.0);
+                let along = |row| corner(x / 8, row) * (1.0 - east) + corner(x / 8 + 1, row) * east;
+                let expected = along(y / 8) * (1.0 - south) + along(y / 8 + 1) * south;
+                assert!((height - expected).abs() < 1e-9, "{boundary:?} {x} {y}");
+            }
+        }
     }
 
     #[test]

@@ -40,6 +40,7 @@ pub use landform_dunes as dunes;
 pub use landform_graph as graph;
 pub use landform_io as io;
 pub use landform_lessons as lessons;
+pub use landform_rivers as rivers;
 pub use landform_sim as sim;
 pub use landform_sim::prelude;
 pub use landform_synth as synth;

@@ -13,6 +13,7 @@ pub fn registry() -> Registry {
     landform_synth::register(&mut registry);
     landform_coast::register(&mut registry);
     landform_dunes::register(&mut registry);
+    landform_rivers::register(&mut registry);
     landform_lessons::register(&mut registry);
     registry
         .metric::<FieldStatistic>()
@@ -22,6 +23,7 @@ pub fn registry() -> Registry {
         .metric::<metrics::Hypsometry>()
         .metric::<metrics::ShoreDimension>()
         .metric::<metrics::SideDimension>()
+        .metric::<metrics::Creases>()
         .metric::<metrics::Depressions>()
         .metric::<metrics::Drainage>();
     registry

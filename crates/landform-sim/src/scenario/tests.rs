@@ -144,6 +144,17 @@ fn stages_share_their_state_and_stop_by_their_rules() {
     assert!(report.stages[1].stopped.contains("rose above 1000"), "{}", report.stages[1].stopped);
 }
 
+/// The value of 96 from before the first iteration must not end the first stage at once.
+#[test]
+fn stop_rules_look_at_fresh_measurements_only() {
+    let rule = "Any([Below(metric: \"total_m\", value: 97.0), Iterations(9)])";
+    let text = GOOD.replace("Iterations(2)", rule);
+    let text = text.replace("[Total()],", "[Total()], measure_every: 3,");
+    let (result, report) = run(&text);
+    result.expect("runs");
+    assert_eq!(report.stages[0].iterations, 3, "{}", report.stages[0].stopped);
+}
+
 #[test]
 fn a_leak_is_found_and_named() {
     let (result, _) = run(&GOOD.replace("Scale()", "Scale(conserving: true)"));

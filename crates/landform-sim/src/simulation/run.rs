@@ -95,7 +95,9 @@ impl Simulation {
         loop {
             let start = Instant::now();
             let iteration = self.iterate(&mut turns)?;
-            let reason = |run: &Self| run.stages[stage].stop.reason(iteration, &ends, &run.series);
+            let tick = self.app.world().resource::<Clock>().tick;
+            let now = [iteration, tick];
+            let reason = |run: &Self| run.stages[stage].stop.reason(now, &ends, &run.series);
             // A rule on a metric looks at fresh measurements only.
             let due = iteration.is_multiple_of(self.measure_every);
             if due && self.measure()? {

@@ -1,5 +1,6 @@
 //! Metrics that need more than the framework: measures of the form of a terrain.
 
+mod creases;
 mod depressions;
 mod drainage;
 mod hypsometry;
@@ -7,6 +8,7 @@ mod shore;
 mod side_dimension;
 mod spectral;
 
+pub use creases::Creases;
 pub use depressions::Depressions;
 pub use drainage::{Drainage, Pits};
 pub use hypsometry::{FirstCurve, Hypsometry};

@@ -26,7 +26,12 @@ pub struct Panels {
     /// How it is drawn: a panel a look for each state.
     #[schemars(length(min = 1))]
     pub looks: Vec<Look>,
-    /// Texts below the panels, in order; stage names where they are missing.
+    /// Names of the fields that the looks draw, in their order; `field` where they are missing.
+    pub fields: Vec<String>,
+    /// Whether the state before the first iteration is drawn.
+    pub initial_state: bool,
+    /// Texts below the panels, in order; stage names where they are missing. Below a spectrum
+    /// or a hypsometric curve its numbers follow.
     pub captions: Vec<String>,
     /// Whether all panels share the range of colours of the last one.
     pub same_colours: bool,
@@ -38,6 +43,8 @@ impl Default for Panels {
             file: "panels.png".into(),
             field: "surface".to_owned(),
             looks: vec![Look::default()],
+            fields: Vec::new(),
+            initial_state: true,
             captions: Vec::new(),
             same_colours: true,
         }
@@ -48,7 +55,7 @@ impl Output for Panels {
     const NAME: &'static str = "Panels";
 
     fn fields(&self) -> Vec<String> {
-        vec![self.field.clone()]
+        (0..self.looks.len()).map(|look| self.field_of(look).to_owned()).collect()
     }
 
     fn file(&self) -> Option<&Path> {
@@ -57,6 +64,10 @@ impl Output for Panels {
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         check_file(&self.file, &["png"])?;
+        if self.fields.len() > self.looks.len() {
+            let message = format!("{} fields for {} looks", self.fields.len(), self.looks.len());
+            return Err(Problem::new("fields", message, "at most one a look"));
+        }
         self.looks.iter().try_for_each(|look| look.validate(lattice))
     }
 
@@ -65,10 +76,20 @@ impl Output for Panels {
     }
 }
 
+impl Panels {
+    /// Name of the field that a look draws.
+    fn field_of(&self, look: usize) -> &str {
+        self.fields.get(look).unwrap_or(&self.field)
+    }
+}
+
+/// A state of the run: its name and what each look draws of it.
+type State = (String, Vec<Vec<f64>>);
+
 /// The states seen so far; they are drawn together because they may share colours.
 struct PanelSink {
     settings: Panels,
-    states: Vec<(String, Vec<f64>)>,
+    states: Vec<State>,
 }
 
 impl Sink for PanelSink {
@@ -79,13 +100,17 @@ impl Sink for PanelSink {
         folder: &Path,
     ) -> Result<Vec<OutputFile>, Problem> {
         match moment {
+            Moment::Start if !self.settings.initial_state => Ok(Vec::new()),
             Moment::Start | Moment::StageEnd => {
-                let (values, _) = field_file::values(snapshot, &self.settings.field)?;
+                let looks = 0..self.settings.looks.len();
+                let values = looks.map(|look| {
+                    field_file::values(snapshot, self.settings.field_of(look)).map(|found| found.0)
+                });
                 let name = match moment {
                     Moment::Start => "initial",
                     _ => snapshot.stage_name(),
                 };
-                self.states.push((name.to_owned(), values));
+                self.states.push((name.to_owned(), values.collect::<Result<_, _>>()?));
                 Ok(Vec::new())
             }
             Moment::Iteration => Ok(Vec::new()),
@@ -96,8 +121,10 @@ impl Sink for PanelSink {
     fn save<'a>(&'a mut self, to: &mut Saver<'_, 'a>) -> Result<(), Problem> {
         let names: Vec<&String> = self.states.iter().map(|(name, _)| name).collect();
         to.value("names", &names);
-        for (index, (_, values)) in self.states.iter().enumerate() {
-            to.array(&index.to_string(), values);
+        for (index, (_, looks)) in self.states.iter().enumerate() {
+            for (look, values) in looks.iter().enumerate() {
+                to.array(&array_name(index, look), values);
+            }
         }
         Ok(())
     }
@@ -111,40 +138,65 @@ impl Sink for PanelSink {
         let names: Vec<String> = from.value("names")?;
         let nodes = snapshot.lattice().node_count();
         let state = |(index, name): (usize, String)| {
-            Ok((name, from.array_of(&index.to_string(), nodes)?.to_vec()))
+            let looks = 0..self.settings.looks.len();
+            let values =
+                looks.map(|look| Ok(from.array_of(&array_name(index, look), nodes)?.to_vec()));
+            Ok((name, values.collect::<Result<_, Damage>>()?))
         };
         self.states = names.into_iter().enumerate().map(state).collect::<Result<_, _>>()?;
         Ok(())
     }
 }
 
+/// Name of the values of a state and a look in checkpoints.
+fn array_name(state: usize, look: usize) -> String {
+    format!("{state}-{look}")
+}
+
 impl PanelSink {
     fn draw(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {
         let settings = &self.settings;
-        let (_, entry) = field_file::values(snapshot, &settings.field)?;
-        let mut row = Row { heading: String::new(), panels: Vec::new() };
-        for (name, values) in &self.states {
-            for look in &settings.looks {
-                let look = self.with_shared_colours(look);
-                let image = look.draw(snapshot.lattice(), values, entry.unit);
-                let image = image.map_err(|error| problem(&error))?;
-                let caption = settings.captions.get(row.panels.len()).unwrap_or(name).clone();
-                row.panels.push(Panel { image, caption });
+        let mut drawn = Vec::new();
+        for state in &self.states {
+            for look in 0..settings.looks.len() {
+                drawn.push(self.panel(snapshot, state, look, drawn.len())?);
             }
         }
-        let figure = panels(&[row], &MontageOptions::default()).map_err(|error| problem(&error))?;
+        let rows = [Row { heading: String::new(), panels: drawn }];
+        let figure = panels(&rows, &MontageOptions::default()).map_err(|error| problem(&error))?;
         let path = below(folder, &settings.file)?;
         write_picture(&figure, &path, &picture_text(snapshot, &settings.field))?;
         Ok(vec![OutputFile { file: settings.file.clone(), kind: "picture".to_owned() }])
     }
-    /// The look with the range of the last state, unless it has one or panels keep their own.
-    fn with_shared_colours(&self, look: &Look) -> Look {
-        match (self.settings.same_colours, look.range(), self.states.last()) {
+
+    /// A panel, the `index`-th of all, with its caption.
+    fn panel(
+        &self,
+        snapshot: &Snapshot<'_>,
+        (name, values): &State,
+        look: usize,
+        index: usize,
+    ) -> Result<Panel, Problem> {
+        let settings = &self.settings;
+        let (_, entry) = field_file::values(snapshot, settings.field_of(look))?;
+        let (values, drawn) = (&values[look], self.with_shared_colours(look));
+        let image = drawn.draw(snapshot.lattice(), values, entry.unit);
+        let mut caption = settings.captions.get(index).unwrap_or(name).clone();
+        if let Some(numbers) = drawn.numbers(snapshot.lattice(), values) {
+            caption += &format!(": {numbers}");
+        }
+        Ok(Panel { image: image.map_err(|error| problem(&error))?, caption })
+    }
+
+    /// A look with the range of the last state, unless it has one or panels keep their own.
+    fn with_shared_colours(&self, look: usize) -> Look {
+        let chosen = &self.settings.looks[look];
+        match (self.settings.same_colours, chosen.range(), self.states.last()) {
             (true, None, Some((_, last))) => {
-                let [low, high] = landform_view::flat::finite_range(last);
-                look.clone().with_range((low, high))
+                let [low, high] = landform_view::flat::finite_range(&last[look]);
+                chosen.clone().with_range((low, high))
             }
-            _ => look.clone(),
+            _ => chosen.clone(),
         }
     }
 }

@@ -91,11 +91,12 @@ fn table(report: &FigureReport) -> String {
         let thesis = target.thesis.map_or("-".to_owned(), |value| value.to_string());
         let low = target.seeds.iter().copied().fold(f64::INFINITY, f64::min);
         let high = target.seeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let digits = decimals(&thesis).max(decimals(&target.band)).max(2);
         text += &format!(
-            "  {:width$}  {thesis:>9}  {:>9.2}  {:>18}  {:>16}  {:?}\n",
+            "  {:width$}  {thesis:>9}  {:>9.digits$}  {:>18}  {:>16}  {:?}\n",
             target.name,
             target.value,
-            format!("{low:.2} to {high:.2}"),
+            format!("{low:.digits$} to {high:.digits$}"),
             target.band,
             target.verdict,
         );
@@ -104,4 +105,11 @@ fn table(report: &FigureReport) -> String {
         }
     }
     text
+}
+
+/// Most decimals of a number in a text.
+fn decimals(text: &str) -> usize {
+    let after = text.split('.').skip(1);
+    let digits = |rest: &str| rest.chars().take_while(char::is_ascii_digit).count();
+    after.map(digits).max().unwrap_or(0)
 }

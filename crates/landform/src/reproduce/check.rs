@@ -4,11 +4,10 @@ use std::path::{Component, Path};
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
-use landform_sim::scenario::ScenarioSource;
 use landform_sim::simulation::Limits;
 
 use super::measure::INITIAL;
-use super::{Figure, Quantity, RunEntry, Source};
+use super::{Figure, RunEntry, Source};
 
 /// Checks that every scenario of `figure` can run and that every number is taken from one of
 /// its runs and stages. `base` is the folder of the target file.
@@ -26,12 +25,16 @@ pub fn check(
         stages.push((run.name.as_str(), check_run(run, base, registry, limits)?));
     }
     for target in &figure.targets {
-        let sources: &[&Source] = match &target.value {
-            Quantity::Metric(source) => &[source],
-            Quantity::Ratio(of, to) => &[of, to],
-        };
-        for source in sources {
+        for source in target.value.sources() {
             check_source(source, &stages).map_err(|why| format!("{}: {why}", target.name))?;
+            let several =
+                figure.runs.iter().any(|run| run.name == source.run && run.over.is_some());
+            if several && !target.value.is_extreme() {
+                let (target, run) = (&target.name, &source.run);
+                return Err(format!(
+                    "{target}: several runs are called `{run}`; take their Smallest or Largest"
+                ));
+            }
         }
     }
     match figure.seeds {
@@ -52,10 +55,13 @@ fn check_run(
         let name = &run.name;
         return Err(format!("the run `{name}` cannot name a folder; expected a plain name"));
     }
-    let source = ScenarioSource::open(&base.join(&run.scenario))?;
-    let scenario = source.parse(registry)?;
-    scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))?;
-    let mut stages: Vec<String> = scenario.stages.into_iter().map(|stage| stage.name).collect();
+    let mut stages = Vec::new();
+    for copy in run.copies(1)? {
+        let source = copy.open(&base.join(&run.scenario))?;
+        let scenario = source.parse(registry)?;
+        scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))?;
+        stages = scenario.stages.into_iter().map(|stage| stage.name).collect();
+    }
     stages.push(INITIAL.to_owned());
     Ok(stages)
 }

@@ -9,7 +9,8 @@ use landform_sim::scenario::ScenarioSource;
 use landform_sim::simulation::{Limits, ProgressHook, Report, Simulation};
 use serde::Serialize;
 
-use super::{Figure, Quantity, Source, Target};
+use super::targets::Copy;
+use super::{Figure, Quantity, RunEntry, Source, Target, sheet};
 
 /// Whether a number was reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -65,6 +66,9 @@ pub(super) const INITIAL: &str = "initial";
 /// Metrics by stage of one run.
 type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
 
+/// The runs of every name.
+type Runs<'a> = BTreeMap<&'a str, Vec<StageMetrics>>;
+
 /// Runs the scenarios of `figure` with every seed and compares.
 ///
 /// `base` is the folder of the target file; pictures of the first seed go to
@@ -82,27 +86,29 @@ pub fn measure(
     hook: &mut dyn ProgressHook,
 ) -> Result<FigureReport, String> {
     let mut values = vec![Vec::new(); figure.targets.len()];
-    let mut pictures = Vec::new();
+    let mut drawn = Vec::new();
     for seed in 1..=figure.seeds {
-        let mut metrics = BTreeMap::new();
+        let mut metrics = Runs::new();
         for run in &figure.runs {
-            tell(&format!("{}, seed {seed} of {}", run.name, figure.seeds));
-            let path = base.join(&run.scenario);
-            let place = (seed == 1).then(|| folder.join(&run.name));
-            let report = run_once(&path, seed, place.as_deref(), registry, limits, hook)?;
-            pictures.extend(
-                (report.outputs.iter().filter(|output| output.kind == "picture"))
-                    .map(|output| Path::new(&run.name).join(&output.file)),
-            );
-            let stages = report.stages.into_iter().map(|stage| (stage.name, stage.metrics));
-            let mut stages: StageMetrics = stages.collect();
-            stages.insert(INITIAL.to_owned(), report.initial_metrics);
-            metrics.insert(run.name.as_str(), stages);
+            let mut copies = Vec::new();
+            for (index, copy) in run.copies(seed)?.iter().enumerate() {
+                tell(&what(run, copy, figure.seeds));
+                let place = (seed == 1 && index == 0).then(|| folder.join(&run.name));
+                let path = base.join(&run.scenario);
+                let report = run_once(&path, copy, place.as_deref(), registry, limits, hook)?;
+                if place.is_some() {
+                    drawn.push(pictures(run, &report));
+                }
+                copies.push(stages(report));
+            }
+            metrics.insert(&run.name, copies);
         }
         for (target, values) in figure.targets.iter().zip(&mut values) {
             values.push(quantity(&target.value, &metrics)?);
         }
     }
+    let sheet = sheet::write(figure, &drawn, folder)?;
+    let pictures = sheet.into_iter().chain(drawn.into_iter().flatten()).collect();
     let targets = figure.targets.iter().zip(values);
     Ok(FigureReport {
         id: figure.id.clone(),
@@ -113,18 +119,51 @@ pub fn measure(
     })
 }
 
+/// What is being run.
+fn what(run: &RunEntry, copy: &Copy, seeds: u64) -> String {
+    match (&run.over, copy.set.last()) {
+        (Some(_), Some((path, value))) => {
+            format!("{}, {path} = {value}, seed {}", run.name, copy.seed)
+        }
+        _ => format!("{}, seed {} of {seeds}", run.name, copy.seed),
+    }
+}
+
+/// The pictures of a run, relative to the output folder.
+fn pictures(run: &RunEntry, report: &Report) -> Vec<PathBuf> {
+    let pictures = report.outputs.iter().filter(|output| output.kind == "picture");
+    pictures.map(|output| Path::new(&run.name).join(&output.file)).collect()
+}
+
+/// The metrics of a run by stage.
+fn stages(report: Report) -> StageMetrics {
+    let stages = report.stages.into_iter().map(|stage| (stage.name, stage.metrics));
+    stages.chain([(INITIAL.to_owned(), report.initial_metrics)]).collect()
+}
+
+impl Copy {
+    /// The scenario of the run.
+    pub(super) fn open(&self, path: &Path) -> Result<ScenarioSource, String> {
+        let mut source = ScenarioSource::open(path)?;
+        for (path, value) in &self.set {
+            source.set(path, value)?;
+        }
+        Ok(source)
+    }
+}
+
 /// Runs a scenario; outputs are written only when a folder is given.
 fn run_once(
     path: &Path,
-    seed: u64,
+    copy: &Copy,
     folder: Option<&Path>,
     registry: &Arc<Registry>,
     limits: Limits,
     hook: &mut dyn ProgressHook,
 ) -> Result<Report, String> {
-    let source = ScenarioSource::open(path)?;
+    let source = copy.open(path)?;
     let mut scenario = source.parse(registry)?;
-    scenario.seed = seed;
+    scenario.seed = copy.seed;
     if folder.is_none() {
         scenario.outputs.clear();
     }
@@ -140,18 +179,24 @@ fn run_once(
     Ok(report)
 }
 
-fn quantity(quantity: &Quantity, metrics: &BTreeMap<&str, StageMetrics>) -> Result<f64, String> {
-    let find = |source: &Source| {
-        let stage = metrics.get(source.run.as_str()).and_then(|run| run.get(&source.stage));
-        stage.and_then(|metrics| metrics.get(&source.metric)).copied().ok_or_else(|| {
-            let Source { run, stage, metric } = source;
+fn quantity(quantity: &Quantity, runs: &Runs<'_>) -> Result<f64, String> {
+    let all = |source: &Source| {
+        let Source { run, stage, metric } = source;
+        let runs = runs.get(run.as_str()).map_or(&[][..], Vec::as_slice);
+        let find = |run: &StageMetrics| run.get(stage)?.get(metric).copied();
+        let values: Option<Vec<f64>> = runs.iter().map(find).collect();
+        values.filter(|values| !values.is_empty()).ok_or_else(|| {
             format!("the run `{run}` has no metric `{metric}` at the end of a stage `{stage}`")
         })
     };
-    match quantity {
-        Quantity::Metric(source) => find(source),
-        Quantity::Ratio(of, to) => Ok(find(of)? / find(to)?),
-    }
+    let first = |source: &Source| all(source).map(|values| values[0]);
+    Ok(match quantity {
+        Quantity::Metric(source) => first(source)?,
+        Quantity::Ratio(of, to) => first(of)? / first(to)?,
+        Quantity::Difference(of, less) => first(of)? - first(less)?,
+        Quantity::Smallest(source) => all(source)?.into_iter().fold(f64::INFINITY, f64::min),
+        Quantity::Largest(source) => all(source)?.into_iter().fold(f64::NEG_INFINITY, f64::max),
+    })
 }
 
 fn judge(target: &Target, seeds: Vec<f64>) -> TargetReport {
@@ -179,7 +224,7 @@ fn judge(target: &Target, seeds: Vec<f64>) -> TargetReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduce::Band;
+    use crate::reproduce::{Band, Over};
 
     fn verdict(band: Band, seeds: &[f64]) -> (f64, Verdict) {
         let source = Source { run: String::new(), stage: String::new(), metric: String::new() };
@@ -192,6 +237,41 @@ mod tests {
         };
         let report = judge(&target, seeds.to_vec());
         (report.value, report.verdict)
+    }
+
+    #[test]
+    fn several_runs_have_values_and_seeds_of_their_own() {
+        let over = Over { path: "initial[0].from.hurst".into(), from: 0.5, to: 0.75, count: 3 };
+        let set = vec!["domain.spacing_m=5.0".to_owned()];
+        let entry =
+            RunEntry { name: "fbm".into(), scenario: "a.ron".into(), set, over: Some(over) };
+        let copies = |seed| entry.copies(seed).unwrap();
+        let last = &copies(2)[2];
+        assert_eq!(last.set[0], ("domain.spacing_m".to_owned(), "5.0".to_owned()));
+        assert_eq!(last.set[1], ("initial[0].from.hurst".to_owned(), "0.75".to_owned()));
+        let seeds: Vec<u64> = [1, 2].into_iter().flat_map(copies).map(|copy| copy.seed).collect();
+        assert_eq!(seeds, [1, 2, 3, 4, 5, 6]);
+    }
+
+    #[test]
+    fn quantities_are_taken_over_runs() {
+        let run = |value: f64| {
+            let metrics = BTreeMap::from([("m".to_owned(), value)]);
+            StageMetrics::from([("s".to_owned(), metrics)])
+        };
+        let runs = Runs::from([("a", vec![run(3.0), run(5.0), run(2.0)]), ("b", vec![run(4.0)])]);
+        let source = |run: &str| Source { run: run.into(), stage: "s".into(), metric: "m".into() };
+        let [a, b] = ["a", "b"].map(source);
+        for (asked, expected) in [
+            (Quantity::Smallest(a.clone()), 2.0),
+            (Quantity::Largest(a), 5.0),
+            (Quantity::Difference(b.clone(), b.clone()), 0.0),
+            (Quantity::Ratio(b.clone(), b), 1.0),
+        ] {
+            assert_eq!(quantity(&asked, &runs), Ok(expected), "{asked:?}");
+        }
+        let none = quantity(&Quantity::Metric(source("c")), &runs);
+        assert!(none.is_err_and(|why| why.contains("`c` has no metric `m`")));
     }
 
     #[test]

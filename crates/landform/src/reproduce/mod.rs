@@ -5,8 +5,9 @@
 
 mod check;
 mod measure;
+mod sheet;
 mod targets;
 
 pub use check::check;
 pub use measure::{FigureReport, TargetReport, Verdict, measure};
-pub use targets::{Band, Figure, Quantity, RunEntry, Source, Target};
+pub use targets::{Band, Figure, Over, Quantity, RunEntry, Source, Target};

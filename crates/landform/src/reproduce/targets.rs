@@ -14,6 +14,9 @@ pub struct Figure {
     pub title: String,
     /// Number of seeds that medians are taken over.
     pub seeds: u64,
+    /// Pictures in a row of one figure of the first pictures of all runs; no such figure when 0.
+    #[serde(default)]
+    pub columns: usize,
     /// The scenarios to run.
     pub runs: Vec<RunEntry>,
     /// The numbers.
@@ -28,6 +31,72 @@ pub struct RunEntry {
     pub name: String,
     /// The scenario, relative to the target file.
     pub scenario: PathBuf,
+    /// Changes of the scenario, each `PATH=VALUE` as `--set` takes it.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// A parameter that runs of this name differ in; a single run when missing.
+    #[serde(default)]
+    pub over: Option<Over>,
+}
+
+/// Runs of one name at equal distances of a parameter, each with a seed of its own.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Over {
+    /// Path of the parameter in the scenario, as `--set` takes it.
+    pub path: String,
+    /// Its value in the first run.
+    pub from: f64,
+    /// Its value in the last run.
+    pub to: f64,
+    /// Number of runs.
+    pub count: u64,
+}
+
+/// A run that an entry asks for: changes of its scenario, and its seed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Copy {
+    /// Changes as path and value.
+    pub set: Vec<(String, String)>,
+    /// The seed.
+    pub seed: u64,
+}
+
+impl RunEntry {
+    /// The runs that `seed` stands for: one with that seed, or several with seeds that no other
+    /// `seed` stands for.
+    ///
+    /// # Errors
+    /// A message when a change is no path and value, or there are no runs.
+    pub(super) fn copies(&self, seed: u64) -> Result<Vec<Copy>, String> {
+        let change = |text: &String| match text.split_once('=') {
+            Some((path, value)) => Ok((path.to_owned(), value.to_owned())),
+            None => Err(format!("the run `{}`: `{text}` is no PATH=VALUE", self.name)),
+        };
+        let set: Vec<(String, String)> = self.set.iter().map(change).collect::<Result<_, _>>()?;
+        let Some(over) = &self.over else { return Ok(vec![Copy { set, seed }]) };
+        if !(1..=Over::MOST).contains(&over.count) {
+            let (name, most) = (&self.name, Over::MOST);
+            return Err(format!("the run `{name}`: `over` wants a `count` from 1 to {most}"));
+        }
+        let copy = |index: u64| {
+            let value = (over.path.clone(), format!("{:?}", over.value(index)));
+            let set = set.iter().cloned().chain([value]).collect();
+            Copy { set, seed: (seed - 1) * over.count + index + 1 }
+        };
+        Ok((0..over.count).map(copy).collect())
+    }
+}
+
+impl Over {
+    /// Most runs of one name.
+    const MOST: u64 = 10_000;
+
+    /// Value of the parameter in a run.
+    fn value(&self, index: u64) -> f64 {
+        let share = index as f64 / self.count.saturating_sub(1).max(1) as f64;
+        self.from + share * (self.to - self.from)
+    }
 }
 
 /// One number.
@@ -55,6 +124,27 @@ pub enum Quantity {
     Metric(Source),
     /// The metric of one run divided by that of another.
     Ratio(Source, Source),
+    /// The metric of one run less that of another.
+    Difference(Source, Source),
+    /// The smallest metric of the runs of one name: see [`RunEntry::over`].
+    Smallest(Source),
+    /// The largest metric of the runs of one name.
+    Largest(Source),
+}
+
+impl Quantity {
+    /// The metrics that it is made of.
+    pub(super) fn sources(&self) -> Vec<&Source> {
+        match self {
+            Self::Metric(source) | Self::Smallest(source) | Self::Largest(source) => vec![source],
+            Self::Ratio(first, second) | Self::Difference(first, second) => vec![first, second],
+        }
+    }
+
+    /// Whether it is taken over several runs of one name.
+    pub(super) fn is_extreme(&self) -> bool {
+        matches!(self, Self::Smallest(_) | Self::Largest(_))
+    }
 }
 
 /// A metric of a run.

@@ -109,6 +109,14 @@ impl Density {
     }
 }
 
+impl Density {
+    /// RMS and R2 of the thesis' fit (section 2.1.6), none for a field without a spectrum.
+    pub(super) fn numbers(values: &[f64], size: [usize; 2]) -> Option<String> {
+        let fit = SpectralFit::new(&spectrum(values, size)?).ok()?;
+        Some(format!("RMS {:.3}, R² {:.3}", fit.rms, fit.r_squared))
+    }
+}
+
 /// The spectrum of a field; none of one that is not finite.
 fn spectrum(values: &[f64], size: [usize; 2]) -> Option<Spectrum> {
     let lattice = Lattice::plane(size, 1.0, Connectivity::Four, [Boundary::Open; 2]).ok()?;

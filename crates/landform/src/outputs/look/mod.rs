@@ -1,11 +1,14 @@
-//! How a field is drawn: as a map under light, in perspective, as flat colours, as a spectrum.
+//! How a field is drawn: as a map under light, in perspective, as flat colours, as a spectrum, as a
+//! hypsometric curve.
 
 mod flat;
+mod hypsometry;
 mod perspective;
 mod relief;
 mod text;
 
 pub use flat::{Density, DensityAxes, Flat};
+pub use hypsometry::Curve;
 pub use perspective::Perspective;
 pub use relief::Relief;
 
@@ -29,6 +32,8 @@ pub enum Look {
     Flat(Flat),
     /// The spectral density of the field.
     Spectrum(Density),
+    /// The hypsometric curve of the field.
+    Hypsometry(Curve),
 }
 
 impl Default for Look {
@@ -69,6 +74,17 @@ impl Look {
             }
             Self::Flat(flat) => flat.draw(values, width, height, unit),
             Self::Spectrum(density) => density.draw(values, [width, height]),
+            Self::Hypsometry(curve) => curve.draw(values),
+        }
+    }
+
+    /// What the picture says in numbers, for looks that measure: RMS and R2 of a spectrum, as
+    /// the thesis prints them below its plots, or the hypsometric integral and stage.
+    pub(crate) fn numbers(&self, lattice: &Lattice, values: &[f64]) -> Option<String> {
+        match self {
+            Self::Spectrum(_) => Density::numbers(values, [lattice.width(), lattice.height()]),
+            Self::Hypsometry(_) => Curve::numbers(values),
+            Self::Relief(_) | Self::Perspective(_) | Self::Flat(_) => None,
         }
     }
 
@@ -78,6 +94,7 @@ impl Look {
         let [width, height] = match self {
             Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
             Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
+            Self::Hypsometry(curve) => <[usize; 2]>::from(curve.size).map(|size| size as f64),
             Self::Flat(Flat { pixels_per_node, .. })
             | Self::Spectrum(Density { pixels_per_node, .. }) => {
                 nodes.map(|nodes| nodes * *pixels_per_node as f64)
@@ -88,7 +105,7 @@ impl Look {
             let message = format!("the picture would have {width:.0} x {height:.0} pixels");
             return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
         }
-        let heights = !matches!(self, Self::Flat(_) | Self::Spectrum(_));
+        let heights = matches!(self, Self::Relief(_) | Self::Perspective(_));
         if heights && lattice.width().min(lattice.height()) < 2 {
             let message = format!("{} x {} nodes span no surface", nodes[0], nodes[1]);
             return Err(Problem::new("look", message, "at least 2 x 2 nodes, or the look Flat"));
@@ -112,7 +129,7 @@ impl Look {
             Self::Relief(relief) => relief.range_m,
             Self::Perspective(view) => view.range_m,
             Self::Flat(flat) => flat.range,
-            Self::Spectrum(_) => None,
+            Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
 
@@ -122,7 +139,7 @@ impl Look {
             Self::Relief(relief) => relief.range_m = Some(range),
             Self::Perspective(view) => view.range_m = Some(range),
             Self::Flat(flat) => flat.range = Some(range),
-            Self::Spectrum(_) => {}
+            Self::Spectrum(_) | Self::Hypsometry(_) => {}
         }
         self
     }

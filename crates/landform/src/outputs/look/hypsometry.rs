@@ -1,0 +1,70 @@
+//! The hypsometric curve of a field.
+
+use landform_analysis::{HypsometricCurve, Hypsometry, StrahlerCurve};
+use landform_view::plot::{Axis, Figure, Line, Panel, Point, Series};
+use landform_view::{Image, ViewError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The hypsometric curve of a field with the nearest of Strahler's model curves, dashed (thesis,
+/// section 2.4.1).
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Curve {
+    /// Width and height of the plot.
+    #[schemars(extend("x-unit" = "pixels"))]
+    pub size: (usize, usize),
+}
+
+impl Default for Curve {
+    fn default() -> Self {
+        Self { size: (512, 512) }
+    }
+}
+
+/// Pixels for each unit of a plot: letters of a plot of the usual size are as large as captions.
+const PIXELS_PER_UNIT: f64 = 1.5;
+
+impl Curve {
+    pub(super) fn draw(&self, values: &[f64]) -> Result<Image, ViewError> {
+        let curve = HypsometricCurve::new(values).ok();
+        let points = |heights: &dyn Fn(f64) -> f64| {
+            let place = |index: usize| index as f64 / (HypsometricCurve::PLACES - 1) as f64;
+            let places = (0..HypsometricCurve::PLACES).map(place);
+            places.map(|share| Point::new(share, heights(share))).collect::<Vec<_>>()
+        };
+        let mut series = Vec::new();
+        if let Some(curve) = &curve {
+            let found = Hypsometry::new(curve);
+            let measured = points(&|share| curve.height_at(share));
+            series.push(Series { line: Some(Line::Solid), ..Series::new("", measured) });
+            if let Some(model) = StrahlerCurve::new(found.a_over_d, found.z) {
+                let model = points(&|share| model.height_at(share));
+                series.push(Series { line: Some(Line::Dashed), ..Series::new("", model) });
+            }
+        }
+        let axis = |label: &str| Axis { range: Some([0.0, 1.0]), ..Axis::linear(label) };
+        let panel = Panel {
+            x: axis("share of the area above"),
+            y: axis("relative height"),
+            series,
+            ..Panel::default()
+        };
+        let (width, height) = self.size;
+        Figure {
+            panels: vec![panel],
+            columns: 1,
+            panel_size: [width, height].map(|side| side as f64 / PIXELS_PER_UNIT),
+            pixels_per_unit: PIXELS_PER_UNIT,
+            ..Figure::default()
+        }
+        .image()
+    }
+
+    /// What the curve says in numbers, none for a flat field.
+    pub(super) fn numbers(values: &[f64]) -> Option<String> {
+        let found = Hypsometry::new(&HypsometricCurve::new(values).ok()?);
+        let stage = format!("{:?}", found.stage).to_lowercase();
+        Some(format!("integral {:.2}, {stage}", found.integral))
+    }
+}
