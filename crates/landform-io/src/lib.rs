@@ -39,7 +39,6 @@ pub mod esri_ascii;
 mod files;
 pub mod georeference;
 pub mod geotiff;
-mod grey;
 mod limits;
 pub mod lines;
 pub mod mesh;
@@ -64,7 +63,6 @@ pub use files::{RasterFile, read_raster, read_raster_file, write_raster};
 pub use georeference::{
     CoordinateKind, CoordinateSystem, Georeference, Registration, SpacingError,
 };
-pub use grey::{Grey, read_grey};
 pub use limits::ReadLimits;
 pub use lines::{LineCoordinates, LineFile, read_lines};
 pub use mesh::{Mesh, write_mesh};

@@ -30,8 +30,9 @@ const NAME: &str = "Mask";
 pub(crate) const MOST_PIXELS: usize = 1 << 26;
 
 /// One value inside a region and another outside: polygons (even-odd: what lies within two rings
-/// is outside again) whose edges are smooth over `edge_m`, or the greys of a picture, black
-/// outside and white inside, with straight lines between the middles of pixels.
+/// is outside again) whose edges are smooth over `edge_m`, or a picture, whose
+/// least value is outside and whose greatest is inside, with straight lines between the middles
+/// of pixels.
 ///
 /// As an initial condition it fills a field; in a [`crate::ConstructionTree`] it is a height, or
 /// what weights are multiplied with.
@@ -44,10 +45,10 @@ pub(crate) const MOST_PIXELS: usize = 1 << 26;
 pub struct Mask {
     /// The region.
     pub of: MaskSource,
-    /// Value outside, or of black.
+    /// Value outside, or of the least value of a picture.
     #[schemars(range(min = -1e12, max = 1e12))]
     pub outside: f64,
-    /// Value inside, or of white.
+    /// Value inside, or of the greatest value of a picture.
     #[schemars(range(min = -1e12, max = 1e12))]
     pub inside: f64,
     /// Width of the border over which polygons change from one to the other; the spacing of the
@@ -88,7 +89,7 @@ pub(crate) struct MaskSurface {
 #[derive(Debug)]
 enum Shape {
     Outline(Outline),
-    Picture(Picture),
+    Picture(Box<Picture>),
 }
 
 impl MaskSurface {
@@ -105,7 +106,7 @@ impl MaskSurface {
             Some(rings) => Shape::Outline(Outline::new(&rings, mask.at_m, mask.scale, edge)?),
             None => {
                 let pixel = spacing * mask.scale;
-                Shape::Picture(Picture::read(&mask.of, folder, mask.at_m, pixel)?)
+                Shape::Picture(Box::new(Picture::read(&mask.of, folder, mask.at_m, pixel)?))
             }
         };
         Ok(Self { shape, outside: mask.outside, inside: mask.inside })

@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
-use landform_io::{Grey, ReadLimits, read_grey};
+use landform_io::{Raster, ReadLimits, read_raster_file};
 
 use super::MaskSource;
 use super::source::unusable;
 use crate::SynthError;
 
-/// Greys with straight lines between the middles of pixels, and those of the border beyond it.
+/// Shares with straight lines between the middles of pixels, and those of the border beyond it.
 #[derive(Debug)]
 pub(super) struct Picture {
-    grey: Grey,
+    /// 0 for the least value of the picture, 1 for the greatest.
+    shares: Raster,
     /// Middle of the south-western pixel.
     at: [f64; 2],
     /// Width of a pixel in metres.
@@ -31,21 +32,31 @@ impl Picture {
             return Err(unusable("this is no picture".to_owned()));
         };
         if path.as_os_str().is_empty() {
-            return Err(unusable("no picture is named; name a PNG file".to_owned()));
+            return Err(unusable("no picture is named; name a raster file".to_owned()));
         }
+        let path = folder.join(path);
         let limits = ReadLimits { max_cells: super::MOST_PIXELS as u64 };
-        let grey = read_grey(folder.join(path), &limits);
-        let grey = grey.map_err(|error| unusable(error.to_string()))?;
-        let slope = steepest(&grey) / pixel;
-        Ok(Self { grey, at, pixel, slope })
+        let file = read_raster_file(&path, &limits).map_err(|error| unusable(error.to_string()))?;
+        let mut shares = file.raster;
+        shares.complete(&path).map_err(|error| unusable(error.to_string()))?;
+        let [least, most] = shares.range().unwrap_or_default();
+        if least == most {
+            let path = path.display();
+            let problem = format!("{path} has the value {least} everywhere; it shows no region");
+            return Err(unusable(problem));
+        }
+        let scale = 1.0 / (most - least);
+        shares.values.iter_mut().for_each(|value| *value = (*value - least) * scale);
+        let slope = steepest(&shares) / pixel;
+        Ok(Self { shares, at, pixel, slope })
     }
 
     /// Number of columns and rows.
     pub fn size(&self) -> [usize; 2] {
-        [self.grey.width, self.grey.height]
+        self.shares.size()
     }
 
-    /// Grey at a point.
+    /// Share at a point.
     pub fn share(&self, point: [f64; 2]) -> f64 {
         let [width, height] = self.size();
         let place = |axis: usize, count: usize| {
@@ -54,32 +65,32 @@ impl Picture {
             (cell, at - cell as f64)
         };
         let [(column, east), (row, north)] = [place(0, width), place(1, height)];
-        let grey = |column: usize, row: usize| {
+        let share = |column: usize, row: usize| {
             let row = height - 1 - row.min(height - 1);
-            self.grey.values[column.min(width - 1) + width * row]
+            self.shares.values[column.min(width - 1) + width * row]
         };
         let along = |row: usize| {
-            let [from, to] = [grey(column, row), grey(column + 1, row)];
+            let [from, to] = [share(column, row), share(column + 1, row)];
             from + east * (to - from)
         };
         let [south, farther] = [along(row), along(row + 1)];
         south + north * (farther - south)
     }
 
-    /// Largest change of the grey a metre.
+    /// Largest change of the share a metre.
     pub fn slope(&self) -> f64 {
         self.slope
     }
 }
 
 /// Largest change a pixel between the middles of any four pixels.
-fn steepest(grey: &Grey) -> f64 {
+fn steepest(raster: &Raster) -> f64 {
     let at = |column: usize, row: usize| {
-        grey.values[column.min(grey.width - 1) + grey.width * row.min(grey.height - 1)]
+        raster.values[column.min(raster.width - 1) + raster.width * row.min(raster.height - 1)]
     };
     let mut steepest = 0.0_f64;
-    for row in 0..grey.height {
-        for column in 0..grey.width {
+    for row in 0..raster.height {
+        for column in 0..raster.width {
             let [a, b] = [at(column, row), at(column + 1, row)];
             let [c, d] = [at(column, row + 1), at(column + 1, row + 1)];
             let across = (b - a).abs().max((d - c).abs());

@@ -26,7 +26,7 @@ pub enum MaskSource {
     /// GeoJSON. Longitude and latitude become metres east and north of the south-western corner,
     /// true along the middle parallel.
     Outline(PathBuf),
-    /// The greys of a picture: PNG of 8 or 16 bits.
+    /// A picture: grey PNG, or any other raster (GeoTIFF, ESRI ASCII, NPY).
     Picture(PathBuf),
     /// A fractal of known dimension in the unit square: `scale` is its side.
     Fractal {

@@ -83,6 +83,11 @@ fn pictures_lie_as_they_are_seen() {
     assert!((surface.slope() - 2.0 * 2.0_f64.sqrt() / 5.0).abs() < 1e-4);
     let small = Mask { scale: 0.5, ..mask };
     assert!(small.values_from(&folder, &lattice).unwrap_err().to_string().contains("periodic"));
+    let text = "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n7 7\n";
+    std::fs::write(folder.join("level.asc"), text).unwrap();
+    let of = MaskSource::Picture("level.asc".into());
+    let refused = MaskSurface::new(&Mask { of, ..Default::default() }, &folder, 5.0).unwrap_err();
+    assert!(refused.to_string().contains("7 everywhere; it shows no region"), "{refused}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
