@@ -38,6 +38,10 @@ pub struct Events {
 pub struct Coast {
     settings: CoastSettings,
     rules: Rules,
+    /// What the force is multiplied with.
+    pressure: f64,
+    /// Whether that has changed since the last iteration.
+    pressed: bool,
     shore: Shore,
     marks: Marks,
     local: Local,
@@ -120,6 +124,8 @@ impl Coast {
         };
         let mut coast = Self {
             rules: Rules::new(lattice, &settings),
+            pressure: 1.0,
+            pressed: false,
             shore: Shore::new(lattice, land),
             marks: Marks { nodes: Vec::new(), strengths: Vec::new(), slots: vec![NO_SLOT; nodes] },
             local,
@@ -199,7 +205,14 @@ impl Coast {
     /// Force of the sea at a coast node; `initial` is the shore at the beginning in parts
     /// ([`Shore::total`]), which only a force by the whole perimeter depends on.
     pub fn force(&self, node: usize, initial: u64) -> f64 {
-        self.rules.of(node).force_at(self.perimeter(node, initial))
+        self.pressure * self.rules.of(node).force_at(self.perimeter(node, initial))
+    }
+
+    /// Multiplies the force of the sea that the settings say, everywhere and from now on: to move
+    /// a coast that is stuck (thesis, listing 4.1). 1 at the beginning.
+    pub fn press(&mut self, pressure: f64) {
+        self.pressed |= pressure != self.pressure;
+        self.pressure = pressure;
     }
 
     /// One iteration; `land` and `resistance` are those of [`Coast::new`], as earlier iterations
@@ -217,25 +230,56 @@ impl Coast {
         check_length("land", land.len(), nodes)?;
         check_length("resistance", resistance.len(), nodes)?;
         self.events.eroded.clear();
-        self.events.exposed.clear();
-        self.events.measured.clear();
         match self.settings.wear {
             None => self.find_weak(initial),
             Some(wear) => self.wear_down(resistance, wear.rate, initial),
         }
+        self.pressed = false;
+        Ok(self.give_way(land, resistance))
+    }
+
+    /// Lets coast nodes fall that the sea would leave standing (thesis, listing 4.1); others among
+    /// `nodes` are passed over. `land` and `resistance` are as for [`Coast::step`].
+    ///
+    /// # Errors
+    /// [`CoastError::Length`].
+    pub fn fell(
+        &mut self,
+        nodes: &[u32],
+        land: &mut [u8],
+        resistance: &mut [f64],
+    ) -> Result<&Events, CoastError> {
+        let count = self.shore.lattice().node_count();
+        check_length("land", land.len(), count)?;
+        check_length("resistance", resistance.len(), count)?;
+        self.events.eroded.clear();
+        let standing = |node: &u32| (*node as usize) < count && self.marks.contains(*node as usize);
+        self.events.eroded.extend(nodes.iter().copied().filter(standing));
+        Ok(self.give_way(land, resistance))
+    }
+
+    /// The nodes that were found fall, and all that follows from it.
+    fn give_way(&mut self, land: &mut [u8], resistance: &mut [f64]) -> &Events {
+        self.events.exposed.clear();
+        self.events.measured.clear();
         self.events.eroded.sort_unstable();
+        self.events.eroded.dedup();
         self.erode(land, resistance);
         self.follow(land, resistance);
         self.refresh();
-        Ok(&self.events)
+        &self.events
     }
 
     /// Finds the coast nodes whose strength is below the force.
     fn find_weak(&mut self, initial: u64) {
         if let Local::Whole = self.local {
             let perimeter = self.shore.total() as f64 / initial as f64;
-            let forces: Vec<f64> =
-                self.rules.all().iter().map(|rule| rule.force_at(perimeter)).collect();
+            let forces: Vec<f64> = self
+                .rules
+                .all()
+                .iter()
+                .map(|rule| self.pressure * rule.force_at(perimeter))
+                .collect();
             for (&node, &strength) in self.marks.nodes.iter().zip(&self.marks.strengths) {
                 if strength < forces[self.rules.number(node as usize)] {
                     self.events.eroded.push(node);
@@ -246,9 +290,9 @@ impl Coast {
         for (&node, &strength) in self.marks.nodes.iter().zip(&self.marks.strengths) {
             let rule = self.rules.of(node as usize);
             // No perimeter can raise the force above this.
-            if strength < rule.force
-                && self.may_differ(node as usize)
-                && strength < rule.force_at(self.perimeter(node as usize, initial))
+            if strength < self.pressure * rule.force
+                && (self.pressed || self.may_differ(node as usize))
+                && strength < self.force(node as usize, initial)
             {
                 self.events.eroded.push(node);
             }
