@@ -23,7 +23,7 @@ impl Default for RelaxationLimits {
 }
 
 /// What relaxation did to a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Relaxation {
     /// Steps of the solver.
     pub steps: usize,

@@ -173,7 +173,7 @@ fn survey(
 }
 
 /// Puts a pair of agents at every node of the coast, and removes them elsewhere.
-fn settle(
+pub(super) fn settle(
     state: &Coast,
     spacing_m: f64,
     mut marks: Agents<CoastMarks>,
@@ -209,7 +209,7 @@ fn erode(
     mut ledger: ResMut<Ledger>,
     mut fault: ResMut<Fault>,
     (mut land, mut rock): (FieldMut<Land>, FieldMut<Resistance>),
-    agents: (Agents<CoastMarks>, Agents<CoastAgents>, Agents<Eroded>),
+    (mut marks, mut coast, mut eroded): (Agents<CoastMarks>, Agents<CoastAgents>, Agents<Eroded>),
 ) {
     let step = state.0.step(land.values_mut(), rock.values_mut(), record.initial_shore);
     let events = match step {
@@ -221,16 +221,20 @@ fn erode(
     if area_m2 > 0.0 {
         ledger.leave("land", "sea", area_m2);
     }
-    follow(&state.0, &events, space.spacing(), agents);
+    follow(&state.0, &events, space.spacing(), (&mut marks, &mut coast, &mut eroded));
 }
 
 /// Coast agents hand their nodes to the artifacts of the sea, and others come to the nodes
 /// behind.
-fn follow(
+pub(super) fn follow(
     state: &Coast,
     events: &Events,
     spacing_m: f64,
-    (mut marks, mut coast, mut eroded): (Agents<CoastMarks>, Agents<CoastAgents>, Agents<Eroded>),
+    (marks, coast, eroded): (
+        &mut Agents<CoastMarks>,
+        &mut Agents<CoastAgents>,
+        &mut Agents<Eroded>,
+    ),
 ) {
     let (mut marks, mut coast, mut eroded) = (marks.view(), coast.view(), eroded.view());
     for &node in &events.eroded {
@@ -253,7 +257,7 @@ fn follow(
 }
 
 /// A refusal by the kernels, at the parameter it is about.
-fn refusal(error: &CoastError) -> Problem {
+pub(super) fn refusal(error: &CoastError) -> Problem {
     let parameter = match error {
         CoastError::Range { name, .. } => name,
         CoastError::EmptyRegion(_) | CoastError::TooManyRegions(_) => "regions",

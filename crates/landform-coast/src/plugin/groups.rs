@@ -28,6 +28,28 @@ impl NodeField for Resistance {
     const LEAST: f64 = 0.0;
 }
 
+/// The level set that a node lies on or above.
+pub struct LevelSetNumber;
+
+impl NodeField for LevelSetNumber {
+    type Value = u32;
+    const NAME: &'static str = "level_set";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "number of the level set that a node lies on or above";
+    const LEAST: f64 = 0.0;
+}
+
+/// Where level sets run.
+pub struct OnLevelSet;
+
+impl NodeField for OnLevelSet {
+    type Value = u8;
+    const NAME: &'static str = "on_level_set";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "1 on a level set, 0 between level sets";
+    const LEAST: f64 = 0.0;
+}
+
 /// The coast mark agents: artifacts at the nodes of the present coast. Each stores the length
 /// of its piece of shore in metres.
 pub struct CoastMarks;

@@ -2,12 +2,20 @@
 
 mod erosion;
 mod groups;
+mod heights;
+mod image;
+mod interior;
+mod level_sets;
 mod metrics;
 mod pruning;
 mod starting_land;
 
 pub use erosion::{CoastErosion, CoastRecord};
-pub use groups::{CoastAgents, CoastMarks, Eroded, Land, Resistance};
+pub use groups::{CoastAgents, CoastMarks, Eroded, Land, LevelSetNumber, OnLevelSet, Resistance};
+pub use heights::{Interpolation, LevelSetHeights, RelaxationRecord};
+pub use image::{ImageCoastErosion, ImageCoastRecord};
+pub use interior::{InteriorRecord, IslandInterior};
+pub use level_sets::{ImageCoastActivity, LevelSetActivity};
 pub use metrics::{CoastActivity, Islands};
 pub use pruning::IslandPruning;
 pub use starting_land::{LandShape, StartingLand};
@@ -17,6 +25,9 @@ use landform_sim::registry::Registry;
 /// Registers the processes, metrics and initial conditions of this crate.
 pub fn register(registry: &mut Registry) {
     registry.process::<CoastErosion>().process::<IslandPruning>();
+    registry.process::<IslandInterior>().process::<LevelSetHeights>();
+    registry.process::<ImageCoastErosion>();
+    registry.metric::<LevelSetActivity>().metric::<ImageCoastActivity>();
     registry.metric::<CoastActivity>().metric::<Islands>();
     registry.initial::<StartingLand>();
 }
