@@ -31,6 +31,8 @@ const ROCK: &str = "(field: \"resistance\", from: WhiteNoise(mean_m: 0.5, amplit
 const SQUARE: &str = "(field: \"land\", from: StartingLand())";
 const STRIP: &str = "(field: \"land\", from: StartingLand(shape: Strip))";
 const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_m: 0.9))";
+const LEVELS: &str = "(field: \"level_set\", from: SmoothNoise(mean_m: 5.0))";
+const ON_LEVEL: &str = "(field: \"on_level_set\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.3))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
@@ -66,6 +68,15 @@ const GOLDEN: &[Case] = &[
         TORUS,
         0x8093_8c13_4a9d_31ac,
     ),
+    case(
+        "IslandInterior(threshold_nodes: 3, perimeter: Near(radius_m: 95.0))",
+        &[SQUARE, ROCK],
+        TRAY,
+        0,
+    ),
+    case("LevelSetHeights(interval_m: 4.0)", &[LEVELS, ON_LEVEL], ISLAND, 0),
+    case("LevelSetHeights(interpolation: Hermite)", &[LEVELS, ON_LEVEL], TORUS, 0),
+    case("ImageCoastErosion(force: 0.6, offset: 1)", &[SQUARE, ROCK], TRAY, 0),
     case("IslandPruning(least_shore_m: 60.0)", &[SPECKS], TORUS, 0xdeff_f79d_c663_68ea),
     case("Dunes(slab_m: 3.0)", &[SAND, HILLS], TORUS, 0x3ddd_f41e_73f4_22fd),
     case("Dunes(slab_m: 3.0)", &[SAND, HILLS], ISLAND, 0x6525_e358_f4f4_b4d9),
@@ -126,7 +137,8 @@ impl Case {
     /// A field that the process has.
     fn measured(&self) -> &'static str {
         match self.name() {
-            "CoastErosion" | "IslandPruning" => "land",
+            "CoastErosion" | "IslandPruning" | "IslandInterior" | "ImageCoastErosion" => "land",
+            "LevelSetHeights" => "bed",
             "Sandpile" => "grains",
             "Life" => "alive",
             "LivingCells" => "cells",

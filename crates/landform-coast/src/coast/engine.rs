@@ -40,7 +40,8 @@ pub struct Coast {
     rules: Rules,
     /// What the force is multiplied with.
     pressure: f64,
-    /// Whether that has changed since the last iteration.
+    /// Whether that has changed since the last iteration, or more than one iteration has: then
+    /// every coast node may fall.
     pressed: bool,
     shore: Shore,
     marks: Marks,
@@ -255,6 +256,8 @@ impl Coast {
         self.events.eroded.clear();
         let standing = |node: &u32| (*node as usize) < count && self.marks.contains(*node as usize);
         self.events.eroded.extend(nodes.iter().copied().filter(standing));
+        // What an iteration changed just before is forgotten by the next change.
+        self.pressed = true;
         Ok(self.give_way(land, resistance))
     }
 

@@ -292,11 +292,13 @@ mod tests {
         let lattice = lattice();
         let mut terrain = Terrain::new(&lattice);
         let settings = FrontSettings { threshold: 5, raise: 0.02 };
-        let mut fronts = Fronts::new(&lattice, coast.clone(), settings, &mut terrain.fields()).unwrap();
+        let mut fronts =
+            Fronts::new(&lattice, coast.clone(), settings, &mut terrain.fields()).unwrap();
         for iteration in 0.. {
             if iteration % 7 == 3 {
                 let fields = terrain.fields();
-                let again = Fronts::resume(&lattice, coast.clone(), settings, &fields, fronts.record());
+                let again =
+                    Fronts::resume(&lattice, coast.clone(), settings, &fields, fronts.record());
                 let again = again.unwrap();
                 for node in again.coast.nodes() {
                     assert_eq!(again.steps[node], fronts.steps[node], "iteration {iteration}");
@@ -308,7 +310,8 @@ mod tests {
             }
         }
         let mut straight = Terrain::new(&lattice);
-        let mut fronts = Fronts::new(&lattice, coast.clone(), settings, &mut straight.fields()).unwrap();
+        let mut fronts =
+            Fronts::new(&lattice, coast.clone(), settings, &mut straight.fields()).unwrap();
         while fronts.step(&mut straight.fields(), |_, _| {}).unwrap() {}
         assert_eq!(terrain.band, straight.band);
         assert_eq!(terrain.on_level, straight.on_level);

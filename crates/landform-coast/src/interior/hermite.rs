@@ -39,13 +39,16 @@ pub fn hermite(lattice: &Lattice, levels: &LevelSets<'_>) -> Result<Vec<f64>, Le
             return base;
         }
         let foot = slope(below.source[node]);
-        base + match to_above.is_finite() {
+        let rise = match to_above.is_finite() {
             true => {
                 let head = slope(above.source[node]);
                 cubic(levels.interval_m, [to_below, to_above], [foot, head])
             }
             false => dome(levels.interval_m, to_below, summits[node], foot),
-        }
+        };
+        // Rounding must not take a node over a level set.
+        let [low, high] = levels.range_m(node);
+        (base + rise).clamp(low, high)
     };
     Ok((0..lattice.node_count()).map(height).collect())
 }
