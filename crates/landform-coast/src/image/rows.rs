@@ -16,7 +16,7 @@ use super::{ImageCoastError, ImageCoastSettings};
 ///     (0..64).map(|pixel| u8::from((2..6).contains(&(pixel % 8)) && (2..6).contains(&(pixel / 8)))).collect();
 /// let mut rock = vec![1.0; 64];
 /// rock[3 * 8 + 2] = 0.1;
-/// let settings = ImageCoastSettings { attenuation: 0.0, ..Default::default() };
+/// let settings = ImageCoastSettings { force: 0.2, attenuation: 0.0, ..Default::default() };
 /// let mut coast = ImageCoast::new([8, 8], settings, &rock)?;
 /// assert_eq!(coast.run(&mut land, 10)?, 1);
 /// assert_eq!(land[3 * 8 + 2], 0);
