@@ -124,8 +124,9 @@ impl Grid {
         })
     }
 
-    /// Length of each of the eight steps in metres.
-    pub(crate) fn step_lengths(&self) -> [f64; 8] {
+    /// Length in metres of each of the eight steps to a neighbour, in the order E, N, W, S, NE, NW,
+    /// SW, SE.
+    pub fn step_lengths(&self) -> [f64; 8] {
         STEPS.map(|[x, y]| (x as f64 * self.cell[0]).hypot(y as f64 * self.cell[1]))
     }
 

@@ -50,11 +50,7 @@ pub fn unstable_sites(
     threshold_m: f64,
 ) -> Vec<Event> {
     let grid = directions.grid();
-    let lengths: [f64; 8] = std::array::from_fn(|step| {
-        let [width, height] = grid.cell_size();
-        // The first four steps lead along the axes: E, N, W, S.
-        [width, height, width, height].get(step).copied().unwrap_or(width.hypot(height))
-    });
+    let lengths = grid.step_lengths();
     let event = |site: usize| {
         let [next, direction] = [directions.receiver(site)?, directions.direction(site)?.into()];
         let area = f64::from(cells[site]) * grid.cell_area();
