@@ -13,7 +13,7 @@ const MOST_ITERATIONS: usize = 4;
 
 /// The `--set` arguments that make a scenario small: its grid, its stages and its perspective
 /// pictures. A grid whose coarse shape is given keeps its size. A raster domain gets `raster`, a
-/// file of a test, instead of its own.
+/// file of a test, instead of its own; a shoreline domain the `.csv` file beside it.
 pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
     let text = fs::read_to_string(scenario).expect("the scenario can be read");
     let tree = Tree::parse(&text);
@@ -23,6 +23,10 @@ pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
     if domain.starts_with("Raster") {
         cuts.push(format!("domain.path={:?}", raster.display().to_string()));
         cuts.push("domain.every=1".to_owned());
+    } else if domain.starts_with("Shoreline") {
+        let shore = raster.with_extension("csv");
+        cuts.push(format!("domain.path={:?}", shore.display().to_string()));
+        cuts.push(format!("domain.nodes={MOST_NODES}"));
     } else if !text.contains("coarse_m: ") {
         let [width, height] = [0, 1].map(|axis| {
             let nodes = value(&format!("domain.size[{axis}]")).and_then(|text| text.parse().ok());

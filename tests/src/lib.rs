@@ -16,7 +16,7 @@ pub use bits::{bits_of, fnv};
 pub use book::{Block, blocks, links};
 pub use cuts::cuts;
 pub use program::{Ended, Program, build_folder, executable};
-pub use rasters::{hills, write_hills};
+pub use rasters::{hills, write_hills, write_shore};
 pub use repository::{files_below, repository, shown};
 pub use runs::Run;
 pub use scratch::Scratch;

@@ -23,3 +23,17 @@ pub fn write_hills(path: &Path, width: usize, height: usize) {
     write_raster(path, &hills(width, height), &metadata, IfExists::Replace)
         .expect("a raster can be written");
 }
+
+/// Writes the shore of a round island and of a smaller one beside it, in metres.
+pub fn write_shore(path: &Path) {
+    let mut text = "line,x,y\n".to_owned();
+    for (number, [east, radius]) in [[0.0, 900.0], [1300.0, 250.0]].into_iter().enumerate() {
+        for step in 0..72 {
+            let angle = f64::from(step) * std::f64::consts::TAU / 72.0;
+            let reach = radius * (1.0 + 0.2 * (5.0 * angle).sin());
+            let [x, y] = [east + reach * angle.cos(), reach * angle.sin()];
+            text += &format!("{number},{x:?},{y:?}\n");
+        }
+    }
+    std::fs::write(path, text).expect("a shore can be written");
+}

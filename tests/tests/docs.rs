@@ -98,7 +98,7 @@ fn scenarios_in_the_text_are_good() {
 #[cfg(unix)]
 mod commands {
     use super::*;
-    use landform_tests::{Ended, Scratch, cuts, executable, write_hills};
+    use landform_tests::{Ended, Scratch, cuts, executable, write_hills, write_shore};
     use std::process::{Command, Stdio};
 
     /// Commands that finish at once or can be cut; `reproduce` runs for minutes.
@@ -151,9 +151,12 @@ mod commands {
         std::os::unix::fs::symlink(repository().join("scenarios"), scratch.path("scenarios"))
             .expect("a link");
         write_hills(&scratch.path("hills.tif"), 60, 44);
-        // Whoever follows the book has a raster of his own under these names.
+        // Whoever follows the book has a raster and a shore of his own under these names.
         for name in ["dem.tif", "my_dem.tif"] {
             write_hills(&scratch.path(name), 60, 44);
+        }
+        for name in ["hills.csv", "iceland.csv"] {
+            write_shore(&scratch.path(name));
         }
         scratch.write("coast.csv", coast());
         scratch

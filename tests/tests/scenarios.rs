@@ -9,7 +9,9 @@ use std::sync::Arc;
 use landform::io::read_raster;
 use landform::sim::scenario::ScenarioSource;
 use landform::sim::simulation::Limits;
-use landform_tests::{Program, Scratch, cuts, files_below, repository, shown, write_hills};
+use landform_tests::{
+    Program, Scratch, cuts, files_below, repository, shown, write_hills, write_shore,
+};
 use serde_json::Value;
 
 /// Scenario files; tables and other data lie in `scenarios/data`, and what `landform reproduce`
@@ -68,16 +70,16 @@ fn examine(scenario: &Path, scratch: &Scratch, report: &Value) {
 }
 
 #[test]
-fn every_scenario_is_good_as_it_stands_or_wants_a_raster() {
+fn every_scenario_is_good_as_it_stands_or_wants_a_file() {
     let registry = Arc::new(landform::registry());
     for file in scenarios() {
         let source = ScenarioSource::open(&file).unwrap_or_else(|error| panic!("{error}"));
         let scenario = source.parse(&registry).unwrap_or_else(|error| panic!("{error}"));
         assert!(!scenario.title.is_empty(), "{} has no title", shown(&file));
         if let Err(problem) = scenario.check(source.folder(), Limits::default()) {
-            let wants_raster =
-                scenario.domain.name == "Raster" && problem.parameter == "domain.path";
-            assert!(wants_raster, "{}", source.render(&problem));
+            let from_file = matches!(scenario.domain.name, "Raster" | "Shoreline");
+            let wants_file = from_file && problem.parameter == "domain.path";
+            assert!(wants_file, "{}", source.render(&problem));
         }
     }
 }
@@ -87,6 +89,7 @@ fn every_scenario_runs_at_a_small_size() {
     let rasters = Scratch::new("hills");
     let raster = rasters.path("hills.tif");
     write_hills(&raster, 60, 44);
+    write_shore(&rasters.path("hills.csv"));
     for file in scenarios() {
         let (scratch, report) = run(&file, &cuts(&file, &raster));
         examine(&file, &scratch, &report);

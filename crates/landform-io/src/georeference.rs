@@ -212,7 +212,7 @@ impl Georeference {
 
 /// Length of a degree of longitude and of latitude on the ellipsoid of WGS 84, from its radii
 /// of curvature along the parallel and the meridian.
-fn metres_per_degree(latitude: f64) -> [f64; 2] {
+pub(crate) fn metres_per_degree(latitude: f64) -> [f64; 2] {
     const EQUATORIAL_RADIUS: f64 = 6_378_137.0;
     const SQUARED_ECCENTRICITY: f64 = 0.006_694_379_990_14;
     let (sine, cosine) = latitude.to_radians().sin_cos();

@@ -64,7 +64,9 @@ pub use georeference::{
     CoordinateKind, CoordinateSystem, Georeference, Registration, SpacingError,
 };
 pub use limits::ReadLimits;
-pub use lines::{LineCoordinates, LineFile, read_lines};
+pub use lines::{
+    Feature, FeatureSystem, LineCoordinates, LineFile, LocalPlane, read_lines, write_features,
+};
 pub use mesh::{Mesh, write_mesh};
 pub use metadata::{Encoding, Metadata, Sidecar};
 pub use raster::Raster;

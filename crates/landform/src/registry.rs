@@ -8,8 +8,11 @@ use crate::{inputs, metrics, outputs};
 /// A registry with everything that Landform offers.
 pub fn registry() -> Registry {
     let mut registry = Registry::new();
-    registry.domain::<inputs::RasterDomain>();
-    registry.initial::<inputs::DomainRaster>().initial::<inputs::RasterFile>();
+    registry.domain::<inputs::RasterDomain>().domain::<inputs::ShorelineDomain>();
+    registry
+        .initial::<inputs::DomainRaster>()
+        .initial::<inputs::RasterFile>()
+        .initial::<inputs::LandAbove>();
     landform_synth::register(&mut registry);
     landform_coast::register(&mut registry);
     landform_dunes::register(&mut registry);

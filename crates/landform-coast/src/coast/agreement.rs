@@ -29,6 +29,12 @@ fn any_settings() -> impl Strategy<Value = CoastSettings> {
             attenuation: None,
             weakening: Some(0.2),
         }]),
+        Just(vec![Region {
+            place: Place::Numbered(2),
+            force: Some(0.3),
+            attenuation: Some(0.3),
+            weakening: None,
+        }]),
     ];
     let numbers = (0.2_f64..0.9, 0.0_f64..0.4);
     (numbers, perimeter, weakening, wear, regions).prop_map(
@@ -39,6 +45,7 @@ fn any_settings() -> impl Strategy<Value = CoastSettings> {
             weakening,
             wear,
             regions,
+            region_map: Vec::new(),
         },
     )
 }
@@ -50,6 +57,9 @@ proptest! {
     fn the_same_nodes_fall(lattice in any_lattice(), settings in any_settings(), seed in 0_u64..) {
         let mut land = any_land(&lattice, seed);
         let mut rock = any_resistance(&lattice, seed);
+        let nodes = 0..lattice.node_count();
+        let region_map = nodes.map(|node| (node % 7 / 2) as u8).collect();
+        let settings = CoastSettings { region_map, ..settings };
         let mut coast = Coast::new(&lattice, settings.clone(), &land, &rock).unwrap();
         let initial = coast.shore().total();
         let (mut slow_land, mut slow_rock) = (land.clone(), rock.clone());

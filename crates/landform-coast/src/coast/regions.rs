@@ -43,6 +43,9 @@ pub enum Place {
     /// What lies within a polygon (even-odd rule), by the shares of the width from west to east
     /// and of the height from south to north of its corners.
     Polygon(Vec<[f64; 2]>),
+    /// The nodes where the field `coast_region` has this number: any shape that an initial
+    /// condition can draw.
+    Numbered(u8),
 }
 
 impl Default for Place {
@@ -52,9 +55,11 @@ impl Default for Place {
 }
 
 impl Place {
-    /// Whether the point with these shares of width and height lies in it.
-    fn contains(&self, [east, north]: [f64; 2]) -> bool {
+    /// Whether the point with these shares of width and height, whose node has a number on the
+    /// map of regions, lies in it.
+    fn contains(&self, [east, north]: [f64; 2], number: u8) -> bool {
         match self {
+            Self::Numbered(wanted) => *wanted == number,
             Self::Sides(sides) => sides.contains(&MapSide::of([east, north])),
             Self::Polygon(corners) => {
                 let mut previous = corners.last().copied().unwrap_or_default();
@@ -74,7 +79,13 @@ impl Place {
         match self {
             Self::Sides(sides) => sides.is_empty(),
             Self::Polygon(corners) => corners.len() < 3,
+            Self::Numbered(_) => false,
         }
+    }
+
+    /// Whether it is found on the map of regions.
+    pub(crate) fn is_numbered(&self) -> bool {
+        matches!(self, Self::Numbered(_))
     }
 }
 
@@ -135,7 +146,9 @@ impl Rules {
             let [x, y, _] = lattice.coordinates(node);
             let [width, height, _] = lattice.size().map(|nodes| nodes as f64);
             let point = [(x as f64 + 0.5) / width, 1.0 - (y as f64 + 0.5) / height];
-            let last = settings.regions.iter().rposition(|region| region.place.contains(point));
+            let own = settings.region_map.get(node).copied().unwrap_or_default();
+            let holds = |region: &Region| region.place.contains(point, own);
+            let last = settings.regions.iter().rposition(holds);
             last.map_or(0, |index| index as u8 + 1)
         };
         let nodes = if settings.regions.is_empty() { 0 } else { lattice.node_count() };

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::CoastError;
-use super::error::check;
+use super::error::{check, check_length};
 use super::regions::{Region, check_regions};
 
 /// Which part of the shore weakens the sea.
@@ -107,6 +107,8 @@ pub struct CoastSettings {
     pub wear: Option<Wear>,
     /// Parts of the map with numbers of their own.
     pub regions: Vec<Region>,
+    /// A number a node, for regions of the kind `Numbered`; 0 everywhere when empty.
+    pub region_map: Vec<u8>,
 }
 
 impl Default for CoastSettings {
@@ -119,6 +121,7 @@ impl Default for CoastSettings {
             weakening: Weakening::Share,
             wear: None,
             regions: Vec::new(),
+            region_map: Vec::new(),
         }
     }
 }
@@ -163,6 +166,9 @@ impl CoastSettings {
                 radius,
                 &expected,
             )?;
+        }
+        if !self.region_map.is_empty() {
+            check_length("coast_region", self.region_map.len(), lattice.node_count())?;
         }
         check_regions(&self.regions)
     }

@@ -3,6 +3,7 @@
 use bevy_app::{App, Plugin};
 use bevy_ecs::change_detection::{Res, ResMut};
 use bevy_ecs::resource::Resource;
+use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Commands;
 use landform_graph::Lattice;
 use landform_sim::agent::Agents;
@@ -17,7 +18,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::groups::{
-    CoastAgents, CoastMarks, Eroded, LAND_BUDGET, Land, Resistance, coast_surface, node_area_m2,
+    CoastAgents, CoastMarks, CoastRegion, Eroded, LAND_BUDGET, Land, Resistance, coast_surface,
+    node_area_m2,
 };
 use crate::coast::{
     Coast, CoastError, CoastSettings, Events, Perimeter, Region, Weakening, Wear, spacings,
@@ -80,7 +82,13 @@ impl CoastErosion {
             weakening: self.weakening,
             wear: self.wear,
             regions: self.regions.clone(),
+            region_map: Vec::new(),
         }
+    }
+
+    /// Whether a region is found on the map of regions.
+    fn has_region_map(&self) -> bool {
+        self.regions.iter().any(|region| region.place.is_numbered())
     }
 }
 
@@ -106,6 +114,9 @@ impl Process for CoastErosion {
             .derives("coast_surface", "m", "land above the sea, to look at", coast_surface)
             .conserves(LAND_BUDGET)
             .scratch(COAST_BYTES + perimeter_bytes);
+        if self.has_region_map() {
+            uses.reads::<CoastRegion>().rebuilds::<RegionMap>();
+        }
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -119,6 +130,9 @@ const COAST_BYTES: usize = 13;
 impl Plugin for CoastErosion {
     fn build(&self, app: &mut App) {
         app.insert_settings(self).add_systems(Begin, survey).add_systems(Iterate, erode);
+        if self.has_region_map() {
+            app.add_systems(Begin, read_region_map.before(survey));
+        }
     }
 }
 
@@ -139,6 +153,15 @@ pub struct CoastRecord {
 #[derive(Resource)]
 pub(super) struct CoastState(pub(super) Coast);
 
+/// The map of regions, where there is one.
+#[derive(Resource)]
+struct RegionMap(Vec<u8>);
+
+/// Keeps the map of regions for [`survey`].
+fn read_region_map(mut commands: Commands, map: Field<CoastRegion>) {
+    commands.insert_resource(RegionMap(map.values().to_vec()));
+}
+
 /// Finds the coast and puts its agents there.
 fn survey(
     mut commands: Commands,
@@ -146,12 +169,15 @@ fn survey(
     space: Res<Space>,
     clock: Res<Clock>,
     record: Option<Res<CoastRecord>>,
+    region_map: Option<Res<RegionMap>>,
     mut fault: ResMut<Fault>,
     (land, rock): (Field<Land>, Field<Resistance>),
     (marks, coast): (Agents<CoastMarks>, Agents<CoastAgents>),
 ) {
     let land = land.values();
-    let found = Coast::new(&space, settings.settings(), land, rock.values()).and_then(|coast| {
+    let mut settings = settings.settings();
+    settings.region_map = region_map.map(|map| map.0.clone()).unwrap_or_default();
+    let found = Coast::new(&space, settings, land, rock.values()).and_then(|coast| {
         // A run that is resumed, and a later stage, may find that the sea has taken all.
         if record.is_none() {
             coast.require_coast(land)?;

@@ -28,6 +28,17 @@ impl NodeField for Resistance {
     const LEAST: f64 = 0.0;
 }
 
+/// A map of regions where coasts have numbers of their own.
+pub struct CoastRegion;
+
+impl NodeField for CoastRegion {
+    type Value = u8;
+    const NAME: &'static str = "coast_region";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "number of the region of a node; 0 where there is none";
+    const LEAST: f64 = 0.0;
+}
+
 /// The level set that a node lies on or above.
 pub struct LevelSetNumber;
 

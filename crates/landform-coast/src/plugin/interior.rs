@@ -76,6 +76,7 @@ impl IslandInterior {
             weakening: self.weakening,
             wear: None,
             regions: Vec::new(),
+            region_map: Vec::new(),
         }
     }
 

@@ -11,7 +11,9 @@ mod pruning;
 mod starting_land;
 
 pub use erosion::{CoastErosion, CoastRecord};
-pub use groups::{CoastAgents, CoastMarks, Eroded, Land, LevelSetNumber, OnLevelSet, Resistance};
+pub use groups::{
+    CoastAgents, CoastMarks, CoastRegion, Eroded, Land, LevelSetNumber, OnLevelSet, Resistance,
+};
 pub use heights::{Interpolation, LevelSetHeights, RelaxationRecord};
 pub use image::{ImageCoastErosion, ImageCoastRecord};
 pub use interior::{InteriorRecord, IslandInterior};

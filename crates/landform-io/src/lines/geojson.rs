@@ -12,19 +12,32 @@ pub(super) fn parse(text: &str) -> Result<LineFile, Fault> {
         let place = Place::Line(error.line() as u64);
         Fault::new(format!("this is no JSON ({error})"), expected, "correct the text").at(place)
     })?;
-    check_crs(&value)?;
+    let coordinates = coordinates(&value)?;
     let mut lines = Vec::new();
     collect(&value, &mut lines)?;
-    Ok(LineFile { coordinates: LineCoordinates::Geographic, lines })
+    for (index, line) in lines.iter().enumerate() {
+        let known = line.iter().try_for_each(|&at| check_point(at, coordinates).map(|_| ()));
+        known.map_err(|fault| of_line(index + 1, fault))?;
+    }
+    Ok(LineFile { coordinates, lines })
 }
 
-/// Older files may name another coordinate system, of which nothing is known here.
-fn check_crs(value: &Value) -> Result<(), Fault> {
+/// A fault in a line of the file.
+fn of_line(number: usize, fault: Fault) -> Fault {
+    Fault { problem: format!("line number {number} of the file: {}", fault.problem), ..fault }
+}
+
+/// GeoJSON of 2008 may say that its numbers are no places on Earth (null), which are taken as
+/// metres, or name another coordinate system, of which nothing is known here.
+fn coordinates(value: &Value) -> Result<LineCoordinates, Fault> {
+    if value.get("crs").is_some_and(Value::is_null) {
+        return Ok(LineCoordinates::Planar);
+    }
     let Some(name) = value.pointer("/crs/properties/name").and_then(Value::as_str) else {
-        return Ok(());
+        return Ok(LineCoordinates::Geographic);
     };
     if name.ends_with("CRS84") || name.ends_with(":4326") {
-        return Ok(());
+        return Ok(LineCoordinates::Geographic);
     }
     let problem = format!("its coordinate system is {name:?}");
     let expected = "longitude and latitude (WGS 84), as RFC 7946 demands";
@@ -77,19 +90,15 @@ fn nested(list: &Value, depth: usize, lines: &mut Vec<Vec<[f64; 2]>>) -> Result<
     if depth > 0 {
         return items.iter().try_for_each(|item| nested(item, depth - 1, lines));
     }
-    let number = lines.len() + 1;
-    let name = |fault: Fault| Fault {
-        problem: format!("line number {number} of the file: {}", fault.problem),
-        ..fault
-    };
-    lines.push(items.iter().map(point).collect::<Result<_, _>>().map_err(name)?);
+    let points = items.iter().map(point).collect::<Result<_, _>>();
+    lines.push(points.map_err(|fault| of_line(lines.len() + 1, fault))?);
     Ok(())
 }
 
 fn point(item: &Value) -> Result<[f64; 2], Fault> {
     let number = |axis: usize| item.get(axis).and_then(Value::as_f64);
     match [number(0), number(1)] {
-        [Some(lon), Some(lat)] => check_point([lon, lat], LineCoordinates::Geographic),
+        [Some(x), Some(y)] => Ok([x, y]),
         _ => {
             let shown: String = item.to_string().chars().take(40).collect();
             let problem = format!("{shown} is no point");

@@ -3,13 +3,18 @@
 //! - CSV (`.csv`): a heading with `lon` and `lat` in degrees, or `x` and `y` in metres, and
 //!   perhaps `line`, in any case and order; other columns are passed over. Rows with the same
 //!   text in `line` that follow one another are one line; without that column all rows are.
-//! - GeoJSON (`.geojson`, `.json`): lines and the rings of polygons, in longitude and latitude;
-//!   points are passed over.
+//! - GeoJSON (`.geojson`, `.json`): lines and the rings of polygons, in longitude and latitude,
+//!   or in metres where the member `crs` is null; points are passed over.
 //!
 //! A line that ends at the point where it starts is closed.
 
 mod csv;
 mod geojson;
+mod plane;
+mod write;
+
+pub use plane::{LocalPlane, extent};
+pub use write::{Feature, FeatureSystem, write_features};
 
 use std::fs::File;
 use std::io::Read;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use landform_io::{LineCoordinates, ReadLimits, read_lines};
+use landform_io::{ReadLimits, read_lines};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -13,9 +13,6 @@ use crate::exact::{koch_snowflake, sierpinski_carpet_rings, sierpinski_triangle}
 
 /// Most points of a region.
 const MOST_POINTS: usize = 100_000;
-
-/// Mean radius of the Earth (IUGG).
-const EARTH_RADIUS_M: f64 = 6_371_008.8;
 
 /// A region of the plane.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -116,15 +113,5 @@ fn fractal(shape: KnownFractal, level: u32) -> Result<Vec<Vec<[f64; 2]>>, SynthE
 fn outline(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, SynthError> {
     let read = read_lines(path, &ReadLimits { max_cells: MOST_POINTS as u64 });
     let file = read.map_err(|error| unusable(error.to_string()))?;
-    if file.coordinates == LineCoordinates::Planar {
-        return Ok(file.lines);
-    }
-    let points = || file.lines.iter().flatten();
-    let least = |axis: usize| points().map(|point| point[axis]).fold(f64::INFINITY, f64::min);
-    let [west, south] = [least(0), least(1)];
-    let north = points().map(|point| point[1]).fold(south, f64::max);
-    let degree = EARTH_RADIUS_M.to_radians();
-    let width = degree * (0.5 * (south + north)).to_radians().cos();
-    let placed = |&[lon, lat]: &[f64; 2]| [width * (lon - west), degree * (lat - south)];
-    Ok(file.lines.iter().map(|line| line.iter().map(placed).collect()).collect())
+    Ok(file.into_metres().0)
 }

@@ -91,7 +91,8 @@ fn pictures_lie_as_they_are_seen() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// A degree of latitude is 111.195 km.
+/// At 60.005 degrees a degree of latitude is 111.4124 km on the ellipsoid, and one of longitude
+/// 55.7916 km.
 #[test]
 fn files_of_lines_become_metres() {
     let folder = std::env::temp_dir().join(format!("landform_outline_{}", std::process::id()));
@@ -102,8 +103,8 @@ fn files_of_lines_become_metres() {
     let mask = Mask { of, at_m: [100.0, 200.0], ..Default::default() };
     let surface = MaskSurface::new(&mask, &folder, 1.0).unwrap();
     let Shape::Outline(outline) = &surface.shape else { panic!("no outline") };
-    assert!(outline.is_within(1, 200.0 + 1112.5) && !outline.is_within(1, 200.0 + 1112.4));
-    let width = 0.02 * 111_195.08 * 60.005_f64.to_radians().cos();
+    assert!(outline.is_within(1, 200.0 + 1114.7) && !outline.is_within(1, 200.0 + 1114.6));
+    let width = 0.02 * 55_791.6;
     assert!(outline.is_within(0, 100.6 + width) && !outline.is_within(0, 100.4 + width));
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -1,11 +1,10 @@
-//! Lines of equal value as a table of points.
+//! Lines of equal value.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use landform_analysis::{LevelSet, LevelSetEdge, level_sets};
 use landform_graph::Lattice;
-use landform_io::{Georeference, IfExists, write_atomically};
+use landform_io::{Feature, FeatureSystem, Georeference, IfExists, write_features};
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -14,13 +13,14 @@ use serde::{Deserialize, Serialize};
 
 use super::field_file;
 
-/// The lines along which a field passes through some levels, contours or coasts, as comma-separated
-/// values: a point a row, with the number of its line and its level. `landform analyze` and every
-/// map program read it.
+/// The lines along which a field passes through some levels, contours or coasts, with their levels:
+/// as comma-separated values, a point a row with the number of its line, or as GeoJSON, a
+/// `LineString` a line. `landform analyze` and map programs read both.
 ///
 /// Land, at or above the level, lies to the left. Points are in metres from the south-western
 /// corner of the map, or in the coordinates of the raster that the domain came from; closed lines
-/// end at their first point.
+/// end at their first point. GeoJSON in metres carries the member `crs` of GeoJSON 2008: null, or
+/// the name of the raster's system.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LevelLines {
@@ -49,7 +49,7 @@ impl Default for LevelLines {
 impl FileOutput for LevelLines {
     const NAME: &'static str = "LevelLines";
     const KIND: &'static str = "lines";
-    const EXTENSIONS: &'static [&'static str] = &["csv"];
+    const EXTENSIONS: &'static [&'static str] = &["csv", "geojson"];
 
     fn order(&self) -> (&Path, &When) {
         (&self.file, &self.when)
@@ -86,27 +86,22 @@ impl FileOutput for LevelLines {
         let place = snapshot.domain().georeference.as_ref();
         let place = place.and_then(|place| place.downcast_ref::<Georeference>()).cloned();
         let place = place.unwrap_or_else(|| Georeference::local(size[1], lattice.spacing()));
-        write_atomically(path, IfExists::Replace, |file| table(file, &lines, &place, size))
+        let features = lines
+            .iter()
+            .flat_map(|(level, lines)| lines.iter().map(|line| feature(*level, line, &place)));
+        let features: Vec<Feature> = features.collect();
+        let system = FeatureSystem::of(&place, size);
+        write_features(path, &features, system, IfExists::Replace)
             .map_err(|error| Problem::new("file", error.to_string(), ""))
     }
 }
 
-/// Writes the header and a row for each point of each line.
-fn table(
-    file: &mut impl Write,
-    levels: &[(f64, Vec<LevelSet>)],
-    place: &Georeference,
-    size: [usize; 2],
-) -> std::io::Result<()> {
-    let names = if place.is_geographic(size) { "lon,lat" } else { "x,y" };
-    writeln!(file, "line,level,{names}")?;
-    let lines = levels.iter().flat_map(|(level, lines)| lines.iter().map(move |l| (level, l)));
-    for (number, (level, line)) in lines.enumerate() {
-        for [column, row] in &line.points {
-            let x = place.west + (column + 0.5) * place.cell_size[0];
-            let y = place.north - (row + 0.5) * place.cell_size[1];
-            writeln!(file, "{},{level:?},{x:?},{y:?}", number + 1)?;
-        }
-    }
-    Ok(())
+/// A line at its place on the map.
+fn feature(level: f64, line: &LevelSet, place: &Georeference) -> Feature {
+    let placed = |&[column, row]: &[f64; 2]| {
+        let steps = [column + 0.5, -(row + 0.5)];
+        let corner = [place.west, place.north];
+        [0, 1].map(|axis| corner[axis] + steps[axis] * place.cell_size[axis])
+    };
+    Feature { points: line.points.iter().map(placed).collect(), properties: vec![("level", level)] }
 }
