@@ -108,7 +108,8 @@ impl Arcs {
         for place in 0..at.len() {
             self.before.push(sum);
             let side = self.lines.side(place);
-            sum += u64::from(shore.side_lengths((side / 4) as usize)[(side % 4) as usize]);
+            let node = (side / 4) as usize;
+            sum += u64::from(shore.side_lengths(node, shore.place(node))[(side % 4) as usize]);
         }
         self.before.push(sum);
         self.boxes.clear();
@@ -124,6 +125,11 @@ impl Arcs {
     /// Forgets where the shore changed before.
     pub(super) fn forget_changes(&mut self) {
         self.changed.clear();
+    }
+
+    /// The shore changes everywhere.
+    pub(super) fn change_all(&mut self) {
+        self.changed.fill();
     }
 
     /// The shore at a place changes, or the strength of its node.

@@ -2,13 +2,12 @@
 
 use landform_graph::Lattice;
 
-use super::arcs::Arcs;
-use super::disc_sums::DiscSums;
 use super::error::check_length;
-use super::regions::Rules;
-use super::shore::spacings;
+use super::marks::Marks;
+use super::sea::Sea;
+use super::watch::Watch;
 use super::wear::WeakeningDisc;
-use super::{CoastError, CoastSettings, Perimeter, Shore};
+use super::{CoastError, CoastSettings, Shore};
 
 /// What one iteration did.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -33,70 +32,18 @@ pub struct Events {
 ///
 /// Everything here follows from settings, land and resistance: a coast made anew goes on alike.
 ///
-/// Memory: 12 bytes a node, 8 more for a perimeter within a radius, 16 for a contiguous one.
+/// Memory: 8 bytes a node, 4 more for a perimeter within a radius, 16 for a contiguous one; and
+/// some 30 bytes a coast node.
 #[derive(Clone, Debug)]
 pub struct Coast {
     settings: CoastSettings,
-    rules: Rules,
-    /// What the force is multiplied with.
-    pressure: f64,
-    /// Whether that has changed since the last iteration, or more than one iteration has: then
-    /// every coast node may fall.
-    pressed: bool,
+    sea: Sea,
     shore: Shore,
     marks: Marks,
-    local: Local,
+    watch: Watch,
     disc: WeakeningDisc,
     touched: Vec<u32>,
-    is_touched: Vec<bool>,
     events: Events,
-}
-
-/// How the perimeter at a place is found.
-#[derive(Clone, Debug)]
-enum Local {
-    Whole,
-    Near(DiscSums),
-    Contiguous(Box<Arcs>),
-}
-
-/// The coast nodes, in an order that depends on history, and their strengths.
-#[derive(Clone, Debug)]
-struct Marks {
-    nodes: Vec<u32>,
-    strengths: Vec<f64>,
-    /// Place of each node among the nodes of the coast.
-    slots: Vec<u32>,
-}
-
-/// The slot of a node that does not belong to the coast.
-const NO_SLOT: u32 = u32::MAX;
-
-impl Marks {
-    fn contains(&self, node: usize) -> bool {
-        self.slots[node] != NO_SLOT
-    }
-
-    /// Sets the strength of a node, which joins the coast when it was not there: `true` then.
-    fn set(&mut self, node: usize, strength: f64) -> bool {
-        if self.contains(node) {
-            self.strengths[self.slots[node] as usize] = strength;
-            return false;
-        }
-        self.slots[node] = self.nodes.len() as u32;
-        self.nodes.push(node as u32);
-        self.strengths.push(strength);
-        true
-    }
-
-    fn remove(&mut self, node: usize) {
-        let slot = std::mem::replace(&mut self.slots[node], NO_SLOT) as usize;
-        self.nodes.swap_remove(slot);
-        self.strengths.swap_remove(slot);
-        if let Some(&moved) = self.nodes.get(slot) {
-            self.slots[moved as usize] = slot as u32;
-        }
-    }
 }
 
 impl Coast {
@@ -115,24 +62,14 @@ impl Coast {
         let nodes = lattice.node_count();
         check_length("land", land.len(), nodes)?;
         check_length("resistance", resistance.len(), nodes)?;
-        let spacing = lattice.spacing();
-        let local = match settings.perimeter {
-            Perimeter::Whole => Local::Whole,
-            Perimeter::Near { radius_m } => Local::Near(DiscSums::new(lattice, radius_m / spacing)),
-            Perimeter::Contiguous { radius_m } => {
-                Local::Contiguous(Box::new(Arcs::new(lattice, radius_m / spacing)))
-            }
-        };
+        let sea = Sea::new(lattice, &settings);
         let mut coast = Self {
-            rules: Rules::new(lattice, &settings),
-            pressure: 1.0,
-            pressed: false,
             shore: Shore::new(lattice, land),
-            marks: Marks { nodes: Vec::new(), strengths: Vec::new(), slots: vec![NO_SLOT; nodes] },
-            local,
+            marks: Marks::new(nodes),
+            watch: Watch::new(lattice, settings.perimeter, &sea),
+            sea,
             disc: WeakeningDisc::new(lattice, settings.wear.as_ref()),
             touched: Vec::new(),
-            is_touched: vec![false; nodes],
             events: Events::default(),
             settings,
         };
@@ -156,14 +93,23 @@ impl Coast {
         for node in (0..land.len()).filter(|&node| land[node] > 0) {
             let exposure = self.shore.exposure(node);
             if exposure.0 > 0 {
-                let strength = self.settings.weakening.strength(resistance[node], exposure);
-                self.marks.set(node, strength);
-                if let Local::Near(sums) = &mut self.local {
-                    sums.add(self.shore.place(node), i32::from(self.shore.length(node)));
-                }
+                self.mark(node, resistance[node], exposure);
+                let length = i32::from(self.shore.length(node));
+                self.watch.touched(self.shore.place(node), length);
             }
         }
-        self.refresh();
+        self.watch.refresh(&self.shore, &self.marks);
+    }
+
+    /// Gives a node of the coast the strength of its exposure: `true` when it is new there.
+    fn mark(&mut self, node: usize, resistance: f64, exposure: (u32, u32)) -> bool {
+        let strength = self.settings.weakening.strength(resistance, exposure);
+        let is_new = self.marks.set(node, strength);
+        // Rock that wears changes everywhere: there is nothing to watch.
+        if self.settings.wear.is_none() {
+            self.watch.strength(&self.sea, &mut self.marks, node);
+        }
+        is_new
     }
 
     /// The shore.
@@ -185,35 +131,23 @@ impl Coast {
 
     /// Strength of a coast node: what exposure leaves of its resistance.
     pub fn strength(&self, node: usize) -> Option<f64> {
-        self.is_coast(node).then(|| self.marks.strengths[self.marks.slots[node] as usize])
-    }
-
-    /// The perimeter that weakens the sea at a coast node, as a multiple of its measure:
-    /// `initial`, the whole shore at the beginning in parts, or a straight coast across the disc.
-    #[inline]
-    fn perimeter(&self, node: usize, initial: u64) -> f64 {
-        let across = |parts: u64| {
-            let radius_m = self.settings.perimeter.radius_m().unwrap_or(1.0);
-            spacings(parts) * self.shore.lattice().spacing() / (2.0 * radius_m)
-        };
-        match &self.local {
-            Local::Whole => self.shore.total() as f64 / initial as f64,
-            Local::Near(sums) => across(u64::from(sums.sum(node))),
-            Local::Contiguous(arcs) => across(arcs.length(&self.shore, node)),
-        }
+        self.marks.slot(node).map(|slot| self.marks.strengths[slot])
     }
 
     /// Force of the sea at a coast node; `initial` is the shore at the beginning in parts
     /// ([`Shore::total`]), which only a force by the whole perimeter depends on.
     pub fn force(&self, node: usize, initial: u64) -> f64 {
-        self.pressure * self.rules.of(node).force_at(self.perimeter(node, initial))
+        let Self { watch, sea, shore, marks, .. } = self;
+        sea.force(node, watch.perimeter(sea, shore, marks, node, initial))
     }
 
     /// Multiplies the force of the sea that the settings say, everywhere and from now on: to move
     /// a coast that is stuck (thesis, listing 4.1). 1 at the beginning.
     pub fn press(&mut self, pressure: f64) {
-        self.pressed |= pressure != self.pressure;
-        self.pressure = pressure;
+        if pressure != self.sea.pressure {
+            self.sea.pressure = pressure;
+            self.watch.pressure(&self.sea, &self.shore, &mut self.marks);
+        }
     }
 
     /// One iteration; `land` and `resistance` are those of [`Coast::new`], as earlier iterations
@@ -232,10 +166,12 @@ impl Coast {
         check_length("resistance", resistance.len(), nodes)?;
         self.events.eroded.clear();
         match self.settings.wear {
-            None => self.find_weak(initial),
+            None => {
+                let Self { watch, sea, shore, marks, events, .. } = self;
+                watch.take_weak(sea, shore, marks, initial, &mut events.eroded);
+            }
             Some(wear) => self.wear_down(resistance, wear.rate, initial),
         }
-        self.pressed = false;
         Ok(self.give_way(land, resistance))
     }
 
@@ -256,8 +192,6 @@ impl Coast {
         self.events.eroded.clear();
         let standing = |node: &u32| (*node as usize) < count && self.marks.contains(*node as usize);
         self.events.eroded.extend(nodes.iter().copied().filter(standing));
-        // What an iteration changed just before is forgotten by the next change.
-        self.pressed = true;
         Ok(self.give_way(land, resistance))
     }
 
@@ -269,45 +203,8 @@ impl Coast {
         self.events.eroded.dedup();
         self.erode(land, resistance);
         self.follow(land, resistance);
-        self.refresh();
+        self.watch.refresh(&self.shore, &self.marks);
         &self.events
-    }
-
-    /// Finds the coast nodes whose strength is below the force.
-    fn find_weak(&mut self, initial: u64) {
-        if let Local::Whole = self.local {
-            let perimeter = self.shore.total() as f64 / initial as f64;
-            let forces: Vec<f64> = self
-                .rules
-                .all()
-                .iter()
-                .map(|rule| self.pressure * rule.force_at(perimeter))
-                .collect();
-            for (&node, &strength) in self.marks.nodes.iter().zip(&self.marks.strengths) {
-                if strength < forces[self.rules.number(node as usize)] {
-                    self.events.eroded.push(node);
-                }
-            }
-            return;
-        }
-        for (&node, &strength) in self.marks.nodes.iter().zip(&self.marks.strengths) {
-            let rule = self.rules.of(node as usize);
-            // No perimeter can raise the force above this.
-            if strength < self.pressure * rule.force
-                && (self.pressed || self.may_differ(node as usize))
-                && strength < self.force(node as usize, initial)
-            {
-                self.events.eroded.push(node);
-            }
-        }
-    }
-
-    /// Whether a coast node may fall that withstood the sea in the iteration before.
-    fn may_differ(&self, node: usize) -> bool {
-        match &self.local {
-            Local::Contiguous(arcs) => arcs.may_differ(self.shore.place(node)),
-            _ => true,
-        }
     }
 
     /// Finds the coast nodes whose strength is below the force, and wears the others.
@@ -327,31 +224,29 @@ impl Coast {
 
     /// Gives the nodes that fall to the sea.
     fn erode(&mut self, land: &mut [u8], resistance: &mut [f64]) {
-        let Self { shore, marks, events, touched, is_touched, rules, disc, .. } = self;
-        let mut touch = |node: usize| {
-            if !std::mem::replace(&mut is_touched[node], true) {
-                touched.push(node as u32);
-            }
-        };
+        let Self { shore, marks, watch, sea, events, touched, disc, .. } = self;
         for &node in &events.eroded {
             let node = node as usize;
             land[node] = 0;
             resistance[node] = 0.0;
-            marks.remove(node);
-            touch(node);
-            shore.surround(node, &mut touch);
+            watch.fallen(node, marks.remove(node));
+            if shore.touch(node) {
+                touched.push(node as u32);
+            }
+            shore.surround(node, |other| touched.push(other as u32));
         }
         if disc.is_empty() {
             return;
         }
+        let lattice = shore.lattice().clone();
         for &node in &events.eroded {
             let node = node as usize;
-            disc.each(shore.lattice(), shore.place(node), |other, falloff| {
+            disc.each(&lattice, shore.place(node), |other, falloff| {
                 if land[other] > 0 {
-                    let left = resistance[other] - rules.of(node).weakening * falloff;
+                    let left = resistance[other] - sea.rules.of(node).weakening * falloff;
                     resistance[other] = left.max(0.0);
-                    if marks.contains(other) {
-                        touch(other);
+                    if marks.contains(other) && shore.touch(other) {
+                        touched.push(other as u32);
                     }
                 }
             });
@@ -361,25 +256,18 @@ impl Coast {
     /// Brings marks, lengths and strengths up to date around what happened.
     fn follow(&mut self, land: &[u8], resistance: &[f64]) {
         let mut touched = std::mem::take(&mut self.touched);
-        if let Local::Contiguous(arcs) = &mut self.local {
-            arcs.forget_changes();
-            touched.iter().for_each(|&node| arcs.change(self.shore.place(node as usize)));
-        }
         for node in touched.drain(..) {
             let node = node as usize;
-            self.is_touched[node] = false;
             let is_land = land[node] > 0;
-            let change = self.shore.measure(node, is_land);
-            if let (Local::Near(sums), true) = (&mut self.local, change != 0) {
-                sums.add(self.shore.place(node), change);
-            }
+            let at = self.shore.place(node);
+            let change = self.shore.measure(node, at, is_land);
+            self.watch.touched(at, change);
             if !is_land {
                 continue;
             }
-            let exposure = self.shore.exposure(node);
+            let exposure = self.shore.exposure_at(node, at);
             if exposure.0 > 0 {
-                let strength = self.settings.weakening.strength(resistance[node], exposure);
-                let is_new = self.marks.set(node, strength);
+                let is_new = self.mark(node, resistance[node], exposure);
                 if is_new {
                     self.events.exposed.push(node as u32);
                 }
@@ -389,14 +277,5 @@ impl Coast {
             }
         }
         self.touched = touched;
-    }
-
-    /// Makes local perimeters follow the shore.
-    fn refresh(&mut self) {
-        match &mut self.local {
-            Local::Whole => {}
-            Local::Near(sums) => sums.refresh(),
-            Local::Contiguous(arcs) => arcs.refresh(&self.shore, &self.marks.nodes),
-        }
     }
 }

@@ -19,15 +19,21 @@ mod disc_sums;
 mod engine;
 mod error;
 mod islands;
+mod marks;
 pub mod reference;
 mod regions;
+mod row_changes;
+mod sea;
 mod settings;
 mod shore;
 mod shore_lines;
 #[cfg(test)]
 mod testing;
 mod vicinity;
+mod watch;
+mod weakest;
 mod wear;
+mod withstood;
 
 pub use engine::{Coast, Events};
 pub use error::CoastError;

@@ -83,8 +83,10 @@ pub fn contiguous_length(lattice: &Lattice, land: &[u8], node: usize, radius_m: 
         walk(side, from, reach, back, &mut run);
         found.push(run);
     }
-    let length =
-        |&side: &Side| u64::from(shore.side_lengths((side / 4) as usize)[(side % 4) as usize]);
+    let length = |&side: &Side| {
+        let node = (side / 4) as usize;
+        u64::from(shore.side_lengths(node, shore.place(node))[(side % 4) as usize])
+    };
     found.iter().flatten().map(length).sum()
 }
 

@@ -27,17 +27,25 @@ pub fn spacings(parts: u64) -> f64 {
 /// the two squares at its ends: their sum is the length that a coast mark stores. Beyond open
 /// borders lies what lies at them, so that the shore meets borders at right angles.
 ///
-/// Memory: 3 bytes a node.
+/// Memory: 4 bytes a node.
 #[derive(Clone, Debug)]
 pub struct Shore {
     lattice: Lattice,
-    /// Which of the eight nodes around are sea, one bit a direction; nodes beyond an open
-    /// border count as land.
-    around: Vec<u8>,
-    /// Shore of each node in parts; zero at sea.
-    lengths: Vec<u16>,
+    spots: Vec<Spot>,
     total: u64,
     table: [[u16; 4]; 256],
+}
+
+/// What is known of a node; together, because it is needed together.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spot {
+    /// Shore in parts; zero at sea.
+    length: u16,
+    /// Which of the eight nodes around are sea, one bit a direction; nodes beyond an open
+    /// border count as land.
+    around: u8,
+    /// Whether the node need not be noted any more when something changes: it is noted, or sea.
+    is_noted: bool,
 }
 
 impl Shore {
@@ -49,16 +57,19 @@ impl Shore {
         let nodes = lattice.node_count();
         let mut shore = Self {
             lattice: lattice.clone(),
-            around: vec![0; nodes],
-            lengths: vec![0; nodes],
+            spots: vec![Spot::default(); nodes],
             total: 0,
             table: std::array::from_fn(|around| side_lengths(around as u8)),
         };
         for node in (0..nodes).filter(|&node| land[node] == 0) {
+            shore.spots[node].is_noted = true;
             shore.surround(node, |_| {});
         }
         for node in (0..nodes).filter(|&node| land[node] > 0) {
-            shore.measure(node, true);
+            // Most land has no shore.
+            if shore.spots[node].around != 0 {
+                shore.measure(node, shore.place(node), true);
+            }
         }
         shore
     }
@@ -71,7 +82,7 @@ impl Shore {
     /// Which of the eight nodes around `node` are sea.
     #[inline]
     pub(super) fn around(&self, node: usize) -> u8 {
-        self.around[node]
+        self.spots[node].around
     }
 
     /// Column and row of a node.
@@ -83,7 +94,7 @@ impl Shore {
 
     /// Shore of a node in parts of a spacing, [`PARTS`] each; zero at sea.
     pub fn length(&self, node: usize) -> u16 {
-        self.lengths[node]
+        self.spots[node].length
     }
 
     /// Shore of the whole coast, islands and lakes included, in parts of a spacing.
@@ -94,11 +105,18 @@ impl Shore {
     /// Number of neighbours of a land node that are sea, and of all that an inner node like it
     /// has.
     pub fn exposure(&self, node: usize) -> (u32, u32) {
-        let edges = edges(&self.lattice, self.place(node));
-        ((self.around[node] & edges).count_ones(), edges.count_ones())
+        self.exposure_at(node, self.place(node))
     }
 
-    /// Tells the nodes around `node` that it is sea, and names each of them to `visit`.
+    /// [`Shore::exposure`] of the node at a place.
+    #[inline]
+    pub(super) fn exposure_at(&self, node: usize, at: [usize; 2]) -> (u32, u32) {
+        let edges = edges(&self.lattice, at);
+        ((self.spots[node].around & edges).count_ones(), edges.count_ones())
+    }
+
+    /// Tells the nodes around `node` that it is sea, and names those to `visit` that are to be
+    /// measured now and were not before.
     pub(super) fn surround(&mut self, node: usize, mut visit: impl FnMut(usize)) {
         let [x, y] = self.place(node);
         let inner = self.lattice.is_interior([x, y, 0]);
@@ -109,34 +127,41 @@ impl Shore {
                 false => beside(&self.lattice, [x, y], direction),
             };
             if let Some(other) = other {
-                self.around[other] |= 1 << opposite(direction);
-                visit(other);
+                self.spots[other].around |= 1 << opposite(direction);
+                if self.touch(other) {
+                    visit(other);
+                }
             }
         }
     }
 
-    /// Measures the shore of a node anew and gives the change in parts.
-    pub(super) fn measure(&mut self, node: usize, is_land: bool) -> i32 {
-        let length = if is_land { self.side_lengths(node).iter().sum() } else { 0 };
-        let change = i32::from(length) - i32::from(self.lengths[node]);
-        self.lengths[node] = length;
+    /// Notes that a land node is to be measured: `true` when it was not noted before.
+    #[inline]
+    pub(super) fn touch(&mut self, node: usize) -> bool {
+        !std::mem::replace(&mut self.spots[node].is_noted, true)
+    }
+
+    /// Measures the shore of the node at a place anew and gives the change in parts.
+    pub(super) fn measure(&mut self, node: usize, at: [usize; 2], is_land: bool) -> i32 {
+        let length = if is_land { self.side_lengths(node, at).iter().sum() } else { 0 };
+        let change = i32::from(length) - i32::from(self.spots[node].length);
+        self.spots[node].length = length;
+        self.spots[node].is_noted = !is_land;
         self.total = self.total.wrapping_add_signed(i64::from(change));
         change
     }
 
-    /// Shore of each side of a land node in parts: east, north, west and south.
+    /// Shore of each side of the land node at a place in parts: east, north, west and south.
     #[inline]
-    pub(super) fn side_lengths(&self, node: usize) -> [u16; 4] {
-        self.table[usize::from(self.mirrored(node))]
+    pub(super) fn side_lengths(&self, node: usize, at: [usize; 2]) -> [u16; 4] {
+        self.table[usize::from(self.mirrored(node, at))]
     }
 
     /// What surrounds a node, with the mirror image of the border beyond it.
     #[inline]
-    fn mirrored(&self, node: usize) -> u8 {
-        let around = self.around[node];
-        let at = self.place(node);
-        // Most nodes that are measured have no shore, or lie away from every border.
-        if around == 0 || self.lattice.is_interior([at[0], at[1], 0]) {
+    fn mirrored(&self, node: usize, at: [usize; 2]) -> u8 {
+        let around = self.spots[node].around;
+        if self.lattice.is_interior([at[0], at[1], 0]) {
             return around;
         }
         let beyond = |side: &usize| beside(&self.lattice, at, *side).is_none();

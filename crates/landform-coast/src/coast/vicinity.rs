@@ -44,6 +44,11 @@ impl Vicinity {
         self.is_near.fill(false);
     }
 
+    /// Everything changes.
+    pub(super) fn fill(&mut self) {
+        self.is_near.fill(true);
+    }
+
     /// A node, or one beside it, changes.
     pub(super) fn change(&mut self, at: [usize; 2]) {
         let square = self.square(at);

@@ -98,7 +98,7 @@ impl Process for CoastErosion {
     fn declare(&self, uses: &mut Declaration) {
         let perimeter_bytes = match self.perimeter {
             Perimeter::Whole => 0,
-            Perimeter::Near { .. } => 8,
+            Perimeter::Near { .. } => 4,
             Perimeter::Contiguous { .. } => 16,
         };
         // Both are asked for: a map without land or rock would be a mistake.
@@ -125,7 +125,7 @@ impl Process for CoastErosion {
 }
 
 /// Bytes a node that the coast works in beside perimeters.
-const COAST_BYTES: usize = 13;
+const COAST_BYTES: usize = 8;
 
 impl Plugin for CoastErosion {
     fn build(&self, app: &mut App) {
