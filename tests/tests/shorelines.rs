@@ -1,9 +1,10 @@
-//! Shorelines, rasters and maps of regions as the beginning of coasts, and coasts as lines.
+//! Shorelines, rasters and maps of regions as the beginning of coasts, and coasts as lines and as
+//! graphs.
 
 use std::fs;
 
 use landform::io::{LineCoordinates, ReadLimits, read_lines, read_raster};
-use landform_tests::{Program, Scratch, write_shore};
+use landform_tests::{Program, Scratch, repository, write_shore};
 use serde_json::Value;
 
 /// A shore in degrees whose sea takes nothing.
@@ -172,4 +173,36 @@ fn level_sets_and_maps_of_regions_start_a_coast() {
     let first_land = |row: usize| land[40 * row..][..40].iter().position(|&land| land > 0.0);
     assert_eq!([0, 5, 9].map(first_land), [Some(25); 3]);
     assert_eq!([11, 20, 29].map(first_land), [Some(22); 3]);
+}
+
+/// Figure 4.9: one node falls, and what lies inland of it becomes coast.
+#[test]
+fn one_event_moves_the_agents_around_it() {
+    let scratch = Scratch::new("event");
+    let scenario = repository().join("scenarios/thesis/fig_4_9.ron");
+    let run = Program::within(scratch.folder()).args(["run", "-o", "o", "--quiet"]);
+    run.args([scenario]).run().good();
+    let nodes = |file: &str| -> Vec<[usize; 2]> {
+        let table = fs::read_to_string(scratch.path("o").join(file)).expect("a table");
+        let number = |row: &str, at: usize| row.split(',').nth(at).expect("a cell").parse();
+        let place = |row: &str| [1, 2].map(|at| number(row, at).expect("a number"));
+        table.lines().skip(1).map(place).collect()
+    };
+    assert_eq!(nodes("eroded.csv"), [[4, 2]]);
+    let coast = nodes("coast.csv");
+    for joined in [[3, 1], [4, 1], [5, 1], [3, 2]] {
+        assert!(coast.contains(&joined), "{joined:?} of {coast:?}");
+    }
+    assert_eq!(coast.len(), 13);
+}
+
+#[test]
+fn maps_of_too_many_agents_are_refused() {
+    let scratch = Scratch::new("event");
+    scratch.write("shore.csv", shore_in_degrees());
+    let map = "AgentMap(groups: [(group: \"coast\")], pixels_per_node: 400.0)";
+    scratch.write("map.ron", STILL.replace("outputs: [", &format!("outputs: [{map},")));
+    let ended = Program::within(scratch.folder()).line("check map.ron").run();
+    assert_eq!(ended.status, Some(2), "{ended:?}");
+    assert!(ended.stderr.contains("choose fewer pixels a node"), "{}", ended.stderr);
 }

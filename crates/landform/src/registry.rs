@@ -35,6 +35,7 @@ pub fn registry() -> Registry {
         .output::<outputs::Animation>()
         .output::<outputs::FieldFile>()
         .output::<outputs::FieldSeries>()
+        .output::<outputs::AgentMap>()
         .output::<outputs::AgentTable>()
         .output::<outputs::LevelLines>()
         .output::<outputs::IslandTable>()

@@ -3,14 +3,14 @@
 use crate::Image;
 
 /// A colour, sRGB.
-pub(super) type Colour = [u8; 3];
+pub(crate) type Colour = [u8; 3];
 
 /// A place on the page: columns from the left, rows from the top.
-pub(super) type Place = [f32; 2];
+pub(crate) type Place = [f32; 2];
 
 /// Which part of a text stands at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -18,7 +18,7 @@ pub(super) enum Anchor {
 
 /// A line of words; its place is at half the height of its letters.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Words {
+pub(crate) struct Words {
     pub text: String,
     pub at: Place,
     pub size: f32,
@@ -29,7 +29,7 @@ pub(super) struct Words {
 
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// A line through places; lengths of dashes and gaps in turn, none for a whole line.
     Stroke { places: Vec<Place>, width: f32, dashes: &'static [f32], colour: Colour },
     /// A filled polygon.
@@ -41,11 +41,11 @@ pub(super) enum Shape {
 }
 
 /// A rectangle: left, top, right and bottom.
-pub(super) type Frame = [f32; 4];
+pub(crate) type Frame = [f32; 4];
 
 /// A page with shapes, the first below the others.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Drawing {
+pub(crate) struct Drawing {
     pub size: Place,
     /// Shapes and the rectangles that cut them.
     pub shapes: Vec<(Shape, Option<Frame>)>,
@@ -54,7 +54,7 @@ pub(super) struct Drawing {
 }
 
 /// Ink of axes and words.
-pub(super) const INK: Colour = [20, 20, 20];
+pub(crate) const INK: Colour = [20, 20, 20];
 
 impl Drawing {
     pub fn add(&mut self, shape: Shape) {

@@ -27,7 +27,7 @@
 mod axes;
 mod axis;
 mod base64;
-mod drawing;
+pub(crate) mod drawing;
 mod figure;
 mod label;
 mod layout;

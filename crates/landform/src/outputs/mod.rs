@@ -1,5 +1,6 @@
 //! Outputs that scenarios may name: pictures, animations, rasters, meshes, tables and series.
 
+mod agent_map;
 mod agent_table;
 mod animation;
 mod field_file;
@@ -12,6 +13,7 @@ mod panels;
 mod picture;
 mod series_file;
 
+pub use agent_map::{AgentMap, DrawnGroup, LowNodes};
 pub use agent_table::AgentTable;
 pub use animation::Animation;
 pub use field_file::FieldFile;
