@@ -27,6 +27,7 @@ struct Case {
 const SAND: &str = "(field: \"sand\", from: WhiteNoise(mean_m: 12.0, amplitude_m: 12.0))";
 const HILLS: &str = "(field: \"bed\", from: SmoothNoise(standard_deviation_m: 8.0))";
 const LAKE: &str = "(field: \"water\", from: WhiteNoise(mean_m: 3.0, amplitude_m: 3.0))";
+const FLOW: &str = "(field: \"flow\", from: WhiteNoise(mean_m: 1.0, amplitude_m: 1.0))";
 const ROCK: &str = "(field: \"resistance\", from: WhiteNoise(mean_m: 0.5, amplitude_m: 0.5))";
 const SQUARE: &str = "(field: \"land\", from: StartingLand())";
 const STRIP: &str = "(field: \"land\", from: StartingLand(shape: Strip))";
@@ -108,6 +109,22 @@ const GOLDEN: &[Case] = &[
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
     case("SlopeAreaErosion()", &[HILLS], PLATE, 0xc78e_4962_62ff_bfaa),
     case("SlopeAreaErosion(pits: Spill)", &[HILLS], PLATE, 0xad69_a2e1_f4c9_0ed2),
+    case("WaterColumn(sweeps: 3)", &[HILLS, LAKE], PLATE, 0x0),
+    case("WaterColumn(algorithm: UniformAverage)", &[HILLS, LAKE], TORUS, 0x0),
+    case(
+        "WaterColumn(algorithm: WeightedAverage, outlets: [East])",
+        &[HILLS, LAKE],
+        BELT,
+        0x0,
+    ),
+    case("WaterColumn(algorithm: Hydrostatic())", &[HILLS, LAKE], ISLAND, 0x0),
+    case("WaterColumn(), HydraulicErosion()", &[HILLS, LAKE], PLATE, 0x0),
+    case(
+        "HydraulicErosion(diffusion: Everywhere, diffusion_m2: 0.5, uplift_m: 0.1)",
+        &[HILLS, FLOW],
+        TORUS,
+        0x0,
+    ),
     case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
     case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
     case("Pipes()", &[HILLS, LAKE], ISLAND, 0x6a15_acb4_bd24_52f0),
@@ -151,6 +168,7 @@ impl Case {
             "Pipes" => "water",
             "Trails" => "wear",
             "SlopeAreaErosion" => "drainage_area",
+            "WaterColumn" => "water",
             _ => "surface",
         }
     }

@@ -3,9 +3,20 @@
 //! [`slope_area`] is the erosion model of Rodriguez-Iturbe and Rinaldo: a network of rivers,
 //! known by the area that each site drains, that cuts down where the stress of its water is too
 //! large, and captures tributaries as it does.
+//!
+//! [`water`] is water with a depth: columns that stand on the ground and flow to lower neighbours.
+//! [`erosion`] is the thesis' hydraulic erosion by that flow.
 
+pub mod erosion;
+mod error;
+mod frame;
+mod plugin;
 pub mod slope_area;
+pub mod water;
 
+pub use erosion::HydraulicErosion;
+pub use error::RiverError;
+pub use plugin::{Channels, Flow, PipeFlow, Rain, Source, StandingWater, WaterColumn};
 pub use slope_area::{DrainageArea, ErodingSites, Pits, SlopeAreaErosion};
 
 use landform_sim::registry::Registry;
@@ -13,4 +24,6 @@ use landform_sim::registry::Registry;
 /// Registers the processes of this crate.
 pub fn register(registry: &mut Registry) {
     registry.process::<SlopeAreaErosion>();
+    registry.process::<WaterColumn>().process::<HydraulicErosion>();
+    registry.metric::<StandingWater>().metric::<Channels>();
 }

@@ -1,0 +1,96 @@
+//! Where water comes in and goes out.
+
+use landform_graph::Lattice;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::RiverError;
+
+/// A side of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Side {
+    /// The first row.
+    North,
+    /// The last column.
+    East,
+    /// The last row.
+    South,
+    /// The first column.
+    West,
+}
+
+impl Side {
+    /// All four.
+    pub const ALL: [Self; 4] = [Self::North, Self::East, Self::South, Self::West];
+
+    /// Name of its border in ledgers and messages.
+    pub fn border(self) -> &'static str {
+        match self {
+            Self::North => "north border",
+            Self::East => "east border",
+            Self::South => "south border",
+            Self::West => "west border",
+        }
+    }
+
+    /// Whether the lattice ends on this side.
+    pub fn is_open(self, lattice: &Lattice) -> bool {
+        !lattice.is_periodic(usize::from(matches!(self, Self::North | Self::South)))
+    }
+}
+
+/// The nodes on a side of a plane, from west to east or from north to south.
+pub fn border_nodes(lattice: &Lattice, side: Side) -> Vec<usize> {
+    let [width, height] = [lattice.width(), lattice.height()];
+    match side {
+        Side::North => (0..width).collect(),
+        Side::South => ((height - 1) * width..height * width).collect(),
+        Side::West => (0..height).map(|row| row * width).collect(),
+        Side::East => (1..=height).map(|row| row * width - 1).collect(),
+    }
+}
+
+/// A disc on the map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Its middle, metres east and north of the south-western node.
+    pub center_m: [f64; 2],
+    /// Its radius; the node nearest to the middle belongs to it in any case.
+    #[schemars(range(min = 0.0, max = 1e9), extend("x-unit" = "m"))]
+    #[serde(default)]
+    pub radius_m: f64,
+}
+
+impl Place {
+    /// Its nodes, in order.
+    ///
+    /// # Errors
+    /// [`RiverError::Outside`] if the middle is more than half a spacing outside.
+    pub fn nodes(&self, lattice: &Lattice) -> Result<Vec<usize>, RiverError> {
+        let spacing = lattice.spacing();
+        let last = [lattice.width() - 1, lattice.height() - 1].map(|count| count as f64);
+        let [column, north] = self.center_m.map(|metres| metres / spacing);
+        let inside = |at: f64, last: f64| (-0.5..=last + 0.5).contains(&at);
+        if !inside(column, last[0]) || !inside(north, last[1]) {
+            let end_m = last.map(|count| count * spacing);
+            return Err(RiverError::Outside { center_m: self.center_m, end_m });
+        }
+        let center = [column.clamp(0.0, last[0]), (last[1] - north).clamp(0.0, last[1])];
+        let nearest = center.map(|at| at.round() as usize);
+        let reach = (self.radius_m / spacing).max(0.0);
+        let span = |axis: usize| {
+            let first = (center[axis] - reach).ceil().max(0.0) as usize;
+            first.min(nearest[axis])
+                ..=((center[axis] + reach).min(last[axis]) as usize).max(nearest[axis])
+        };
+        let within = |x: usize, y: usize| {
+            (x as f64 - center[0]).hypot(y as f64 - center[1]) <= reach || [x, y] == nearest
+        };
+        let row = |y: usize| {
+            let columns = span(0).filter(move |&x| within(x, y));
+            columns.map(move |x| x + lattice.width() * y)
+        };
+        Ok(span(1).flat_map(row).collect())
+    }
+}
