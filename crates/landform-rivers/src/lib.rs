@@ -16,7 +16,9 @@ pub mod water;
 
 pub use erosion::HydraulicErosion;
 pub use error::RiverError;
-pub use plugin::{Channels, Flow, PipeFlow, Rain, Source, StandingWater, WaterColumn};
+pub use plugin::{
+    Channels, Flow, FlowDensity, Lakes, PipeFlow, Rain, Source, StandingWater, WaterColumn,
+};
 pub use slope_area::{DrainageArea, ErodingSites, Pits, SlopeAreaErosion};
 
 use landform_sim::registry::Registry;
@@ -25,5 +27,5 @@ use landform_sim::registry::Registry;
 pub fn register(registry: &mut Registry) {
     registry.process::<SlopeAreaErosion>();
     registry.process::<WaterColumn>().process::<HydraulicErosion>();
-    registry.metric::<StandingWater>().metric::<Channels>();
+    registry.metric::<StandingWater>().metric::<Channels>().metric::<FlowDensity>();
 }

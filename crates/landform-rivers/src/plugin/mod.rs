@@ -6,7 +6,7 @@ mod metrics;
 mod water;
 
 pub use fields::{Flow, PipeFlow, Rain};
-pub use metrics::{Channels, StandingWater};
+pub use metrics::{Channels, FlowDensity, Lakes, StandingWater};
 pub use water::{Source, WaterColumn};
 
 use landform_sim::parameters::Problem;

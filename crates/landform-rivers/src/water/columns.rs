@@ -163,16 +163,19 @@ impl Columns {
             .map(|(row, (level, wet))| {
                 let bed = &bed[(row + 1) * stride..][..stride];
                 let mut lost = 0;
-                for word in 0..wet.len() {
-                    let mut bits = wet[word] & inner(word, width);
+                for (index, word) in wet.iter_mut().enumerate() {
+                    let mut bits = *word & inner(index, width);
                     while bits != 0 {
-                        let at = word * 64 + bits.trailing_zeros() as usize;
-                        bits &= bits - 1;
+                        let bit = bits & bits.wrapping_neg();
+                        bits ^= bit;
+                        let at = index * 64 + bit.trailing_zeros() as usize;
                         let depth = level[at] - bed[at];
                         let amount = ((depth as f64 * share).ceil() as i64).clamp(1, depth);
                         level[at] -= amount;
                         lost += i128::from(amount);
-                        wet[word] &= !(u64::from(amount == depth) << (at % 64));
+                        if amount == depth {
+                            *word &= !bit;
+                        }
                     }
                 }
                 lost

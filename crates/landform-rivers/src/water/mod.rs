@@ -38,6 +38,6 @@ mod units;
 
 pub use columns::Columns;
 pub use pipes::PipeSettings;
-pub use places::{Place, Side, border_nodes};
+pub use places::{Place, Side, border_nodes, nodes_beside};
 pub use sweeper::{Algorithm, Sweeper};
 pub use units::{MOST_M, UNIT_M};

@@ -33,6 +33,14 @@ impl Side {
         }
     }
 
+    /// Number of rows or columns of a plane from this side to the one across.
+    pub fn depth(self, lattice: &Lattice) -> usize {
+        match self {
+            Self::North | Self::South => lattice.height(),
+            Self::East | Self::West => lattice.width(),
+        }
+    }
+
     /// Whether the lattice ends on this side.
     pub fn is_open(self, lattice: &Lattice) -> bool {
         !lattice.is_periodic(usize::from(matches!(self, Self::North | Self::South)))
@@ -41,12 +49,20 @@ impl Side {
 
 /// The nodes on a side of a plane, from west to east or from north to south.
 pub fn border_nodes(lattice: &Lattice, side: Side) -> Vec<usize> {
+    nodes_beside(lattice, side, 0)
+}
+
+/// The row or column of nodes of a plane at `distance` rows or columns from a side, which is less than
+/// [`Side::depth`], from west to east or from north to south.
+pub fn nodes_beside(lattice: &Lattice, side: Side, distance: usize) -> Vec<usize> {
     let [width, height] = [lattice.width(), lattice.height()];
+    let row = |row: usize| (row * width..(row + 1) * width).collect();
+    let column = |column: usize| (0..height).map(|row| row * width + column).collect();
     match side {
-        Side::North => (0..width).collect(),
-        Side::South => ((height - 1) * width..height * width).collect(),
-        Side::West => (0..height).map(|row| row * width).collect(),
-        Side::East => (1..=height).map(|row| row * width - 1).collect(),
+        Side::North => row(distance),
+        Side::South => row(height - 1 - distance),
+        Side::West => column(distance),
+        Side::East => column(width - 1 - distance),
     }
 }
 
