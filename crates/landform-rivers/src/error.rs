@@ -49,14 +49,10 @@ pub enum RiverError {
         most_m2: f64,
     },
     /// A place lies outside the lattice.
-    #[error(
-        "the place {center_m:?} lies outside the domain, which ends at {end_m:?} m east and north of its south-western node"
-    )]
+    #[error("the place {center:?} lies outside the domain; give two shares between 0 and 1")]
     Outside {
-        /// Metres east and north of the south-western node.
-        center_m: [f64; 2],
-        /// Those of the north-eastern node.
-        end_m: [f64; 2],
+        /// Shares of the width and of the height.
+        center: [f64; 2],
     },
     /// Water is to leave over a border that is none.
     #[error("water is to leave over the {border} border, but that axis is periodic")]

@@ -63,8 +63,8 @@ pub struct WaterColumn {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// Its middle, metres east and north of the south-western node.
-    pub center_m: [f64; 2],
+    /// Its middle: share of the width from west to east, of the height from south to north.
+    pub center: [f64; 2],
     /// Its radius; the node nearest to the middle belongs to it in any case.
     #[schemars(range(min = 0.0, max = 1e9), extend("x-unit" = "m"))]
     #[serde(default)]
@@ -102,7 +102,7 @@ impl WaterColumn {
     fn openings(&self, lattice: &Lattice) -> Result<Openings, Problem> {
         let sources = self.sources.iter().enumerate().map(|(number, source)| {
             let name = format!("sources[{number}]");
-            let place = Place { center_m: source.center_m, radius_m: source.radius_m };
+            let place = Place { center: source.center, radius_m: source.radius_m };
             let nodes = place.nodes(lattice).map_err(|error| refusal(&error, &name))?;
             let depth_m = source.volume_m3 / nodes.len() as f64 / lattice.spacing().powi(2);
             if depth_m <= MOST_FED_M {

@@ -70,8 +70,8 @@ pub fn nodes_beside(lattice: &Lattice, side: Side, distance: usize) -> Vec<usize
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// Its middle, metres east and north of the south-western node.
-    pub center_m: [f64; 2],
+    /// Its middle: share of the width from west to east, of the height from south to north.
+    pub center: [f64; 2],
     /// Its radius; the node nearest to the middle belongs to it in any case.
     #[schemars(range(min = 0.0, max = 1e9), extend("x-unit" = "m"))]
     #[serde(default)]
@@ -82,17 +82,15 @@ impl Place {
     /// Its nodes, in order.
     ///
     /// # Errors
-    /// [`RiverError::Outside`] if the middle is more than half a spacing outside.
+    /// [`RiverError::Outside`] if the middle is not on the map.
     pub fn nodes(&self, lattice: &Lattice) -> Result<Vec<usize>, RiverError> {
+        let [east, north] = self.center;
+        if ![east, north].iter().all(|share| (0.0..=1.0).contains(share)) {
+            return Err(RiverError::Outside { center: self.center });
+        }
         let spacing = lattice.spacing();
         let last = [lattice.width() - 1, lattice.height() - 1].map(|count| count as f64);
-        let [column, north] = self.center_m.map(|metres| metres / spacing);
-        let inside = |at: f64, last: f64| (-0.5..=last + 0.5).contains(&at);
-        if !inside(column, last[0]) || !inside(north, last[1]) {
-            let end_m = last.map(|count| count * spacing);
-            return Err(RiverError::Outside { center_m: self.center_m, end_m });
-        }
-        let center = [column.clamp(0.0, last[0]), (last[1] - north).clamp(0.0, last[1])];
+        let center = [east * last[0], (1.0 - north) * last[1]];
         let nearest = center.map(|at| at.round() as usize);
         let reach = (self.radius_m / spacing).max(0.0);
         let span = |axis: usize| {

@@ -287,11 +287,11 @@ fn bad_fields_and_lattices_are_refused() {
 fn places_are_discs_on_the_map() {
     let open = [Boundary::Open; 2];
     let lattice = Lattice::plane([5, 4], 10.0, Connectivity::Eight, open).unwrap();
-    let nodes = |center_m, radius_m| Place { center_m, radius_m }.nodes(&lattice);
+    let nodes = |center, radius_m| Place { center, radius_m }.nodes(&lattice);
     assert_eq!(nodes([0.0, 0.0], 0.0), Ok(vec![15]));
-    assert_eq!(nodes([21.0, 28.0], 1.0), Ok(vec![2]));
-    assert_eq!(nodes([20.0, 10.0], 10.0), Ok(vec![7, 11, 12, 13, 17]));
-    assert!(matches!(nodes([46.0, 0.0], 0.0), Err(RiverError::Outside { .. })));
+    assert_eq!(nodes([0.52, 0.95], 1.0), Ok(vec![2]));
+    assert_eq!(nodes([0.5, 1.0 / 3.0], 10.1), Ok(vec![7, 11, 12, 13, 17]));
+    assert!(matches!(nodes([1.1, 0.0], 0.0), Err(RiverError::Outside { .. })));
     assert!(matches!(nodes([0.0, f64::NAN], 0.0), Err(RiverError::Outside { .. })));
     assert_eq!(border_nodes(&lattice, Side::East), [4, 9, 14, 19]);
 }

@@ -20,8 +20,8 @@ use crate::water::Place;
 pub struct FlowDensity {
     /// Name of the place in the column.
     pub name: String,
-    /// Its middle, metres east and north of the south-western node.
-    pub center_m: [f64; 2],
+    /// Its middle: share of the width from west to east, of the height from south to north.
+    pub center: [f64; 2],
     /// Its radius.
     #[schemars(range(min = 0.0, max = 1e9), extend("x-unit" = "m"))]
     pub radius_m: f64,
@@ -29,14 +29,14 @@ pub struct FlowDensity {
 
 impl Default for FlowDensity {
     fn default() -> Self {
-        Self { name: "place".to_owned(), center_m: [0.0; 2], radius_m: 50.0 }
+        Self { name: "place".to_owned(), center: [0.5; 2], radius_m: 50.0 }
     }
 }
 
 impl FlowDensity {
     fn nodes(&self, lattice: &Lattice) -> Result<Vec<usize>, Problem> {
-        let place = Place { center_m: self.center_m, radius_m: self.radius_m };
-        place.nodes(lattice).map_err(|error| refusal(&error, "center_m"))
+        let place = Place { center: self.center, radius_m: self.radius_m };
+        place.nodes(lattice).map_err(|error| refusal(&error, "center"))
     }
 }
 
