@@ -26,6 +26,7 @@ pub mod initial;
 pub mod ledger;
 pub mod metric;
 pub mod nodes;
+pub mod notes;
 pub mod output;
 pub mod parameters;
 pub mod prelude;

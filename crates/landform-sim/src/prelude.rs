@@ -13,6 +13,7 @@ pub use crate::initial::{InitialCondition, InitialContext};
 pub use crate::ledger::{Budget, Ledger};
 pub use crate::metric::Metric;
 pub use crate::nodes::Space;
+pub use crate::notes::Notes;
 pub use crate::parameters::Problem;
 pub use crate::process::{Begin, Declaration, Iterate, Process, ProcessApp, Settings};
 pub use crate::random::RandomStream;

@@ -19,7 +19,7 @@ pub mod reference;
 mod rows;
 mod settings;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 
 #[cfg(feature = "gpu")]
 pub use gpu::{GpuCoast, GpuError};

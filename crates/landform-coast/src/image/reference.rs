@@ -4,7 +4,7 @@ use super::numbers::{force, shore_pieces, strength, tile_length};
 use super::settings::Steps;
 use super::{ImageCoastError, ImageCoastSettings};
 
-/// One iteration on `land`, 1 on land and 0 at sea, with `resistance` in steps
+/// One iteration on `land`, 0 at sea, with `resistance` in steps
 /// ([`super::numbers::resistance`]); both hold one value a pixel of `size` columns and rows.
 /// Returns the number of pixels that fell.
 ///
@@ -24,14 +24,15 @@ pub fn step(
         }
     }
     let steps = settings.steps(size);
-    let lengths = tile_lengths(size, &steps, land);
-    let before = land.to_vec();
+    let before: Vec<u8> = land.iter().map(|&land| u8::from(land > 0)).collect();
+    let lengths = tile_lengths(size, &steps, &before);
     let mut fallen = 0;
     for (pixel, land) in land.iter_mut().enumerate() {
-        let place = [pixel % size[0], pixel / size[0]];
+        let place @ [x, y] = [pixel % size[0], pixel / size[0]];
         let exposed = exposed_sides(size, &before, place);
-        if *land == 1 && exposed > 0 {
-            let force = force(steps.force, steps.attenuation, steps.length_at(&lengths, place));
+        if *land > 0 && exposed > 0 {
+            let length = steps.length_at(&lengths, steps.place(x, 0), steps.place(y, 1));
+            let force = force(steps.force, steps.attenuation, length);
             if strength(steps.weakening, resistance[pixel], exposed) < force {
                 *land = 0;
                 fallen += 1;

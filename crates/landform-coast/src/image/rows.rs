@@ -1,8 +1,10 @@
 //! Image coasts on the processor: row by row, on all threads.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
-use super::numbers::{self, force, shore_pieces, strength, tile_length};
+use super::numbers::{self, force, strength, tile_length};
 use super::settings::Steps;
 use super::{ImageCoastError, ImageCoastSettings};
 
@@ -27,8 +29,18 @@ pub struct ImageCoast {
     size: [usize; 2],
     steps: Steps,
     resistance: Vec<u16>,
+    /// Where columns lie between the middles of tiles.
+    columns: Vec<[u32; 2]>,
+    /// The land before an iteration: rows with their first and last pixel once more before and
+    /// behind them.
     before: Vec<u8>,
 }
+
+/// Pixels that are looked at together: as many as can be counted in a byte.
+const BLOCK: usize = 64;
+
+/// Rows whose shore is measured together.
+const STRIP: usize = 64;
 
 impl ImageCoast {
     /// A coast on an image of `size` columns and rows, with a `resistance` of 0 to 1 a pixel.
@@ -47,11 +59,18 @@ impl ImageCoast {
             return Err(ImageCoastError::Length { field: "resistance", expected, found });
         }
         let resistance = resistance.iter().map(|&u| numbers::resistance(u)).collect();
-        Ok(Self { size, steps: settings.steps(size), resistance, before: vec![0; expected] })
+        let steps = settings.steps(size);
+        Ok(Self {
+            size,
+            steps,
+            resistance,
+            columns: (0..size[0]).map(|x| steps.place(x, 0)).collect(),
+            before: vec![0; (size[0] + 2) * size[1]],
+        })
     }
 
-    /// Runs until nothing falls, or for `most` iterations, on `land`: 1 on land, 0 at sea. Returns
-    /// the number of iterations in which something fell.
+    /// Runs until nothing falls, or for `most` iterations, on `land`: 0 at sea. Returns the number
+    /// of iterations in which something fell.
     ///
     /// # Errors
     /// [`ImageCoastError::Length`].
@@ -69,66 +88,93 @@ impl ImageCoast {
     /// # Errors
     /// [`ImageCoastError::Length`].
     pub fn step(&mut self, land: &mut [u8]) -> Result<usize, ImageCoastError> {
-        let (expected, found) = (self.before.len(), land.len());
+        let (expected, found) = (self.resistance.len(), land.len());
         if found != expected {
             return Err(ImageCoastError::Length { field: "land", expected, found });
         }
-        self.before.copy_from_slice(land);
+        self.remember(land);
         let lengths = self.tile_lengths();
-        let [width, _] = self.size;
-        let fallen = land
-            .par_chunks_mut(width)
-            .enumerate()
-            .map(|(y, land)| self.erode_row(y, &lengths, land));
-        Ok(fallen.sum())
+        let rows = land.par_chunks_mut(self.size[0]).enumerate();
+        Ok(rows.map(|(y, land)| self.erode_row(y, &lengths, land)).sum())
     }
 
-    /// Row `y` of the land before this iteration; beyond the border the row at it.
+    /// Takes the land as it is before this iteration.
+    fn remember(&mut self, land: &[u8]) {
+        let width = self.size[0];
+        let rows = self.before.par_chunks_mut(width + 2).zip(land.par_chunks(width));
+        rows.for_each(|(before, land)| {
+            for (before, &land) in before[1..].iter_mut().zip(land) {
+                *before = u8::from(land > 0);
+            }
+            (before[0], before[width + 1]) = (before[1], before[width]);
+        });
+    }
+
+    /// Row `y` of the land before this iteration, with a pixel more before and behind it; beyond
+    /// the border the row at it.
     fn row(&self, y: usize) -> &[u8] {
         let [width, height] = self.size;
-        let start = y.min(height - 1) * width;
-        &self.before[start..start + width]
+        let start = y.min(height - 1) * (width + 2);
+        &self.before[start..start + width + 2]
     }
 
     /// Length of shore of every tile.
     fn tile_lengths(&self) -> Vec<u32> {
-        let [columns, rows] = self.steps.tile.map(|side| side as usize);
-        let tiles = self.steps.tiles as usize;
-        let of_tile_row = |tile_row: usize| {
-            let mut pieces = vec![[0_u32; 2]; tiles];
-            for y in rows * tile_row..rows * (tile_row + 1) {
-                let [north, south] = [self.row(y), self.row(y + 1)];
-                if y + 1 < self.size[1] {
-                    for (tile, pieces) in pieces.iter_mut().enumerate() {
-                        add_pieces(north, south, columns * tile..columns * (tile + 1), pieces);
-                    }
-                }
-            }
-            pieces.into_iter().map(|pieces| tile_length(pieces, self.steps.side)).collect()
+        let [rows, tiles] = [self.steps.tile[1], self.steps.tiles].map(|count| count as usize);
+        let strips = rows.div_ceil(STRIP);
+        let of_strip = |strip: usize| {
+            let (tile_row, first) = (strip / strips, strip % strips * STRIP);
+            let rows = tile_row * rows + first..tile_row * rows + (first + STRIP).min(rows);
+            self.strip_pieces(rows)
         };
-        let lengths: Vec<Vec<u32>> = (0..tiles).into_par_iter().map(of_tile_row).collect();
-        lengths.concat()
+        let pieces: Vec<Vec<[u32; 2]>> =
+            (0..tiles * strips).into_par_iter().map(of_strip).collect();
+        let of_tile_row = |strips: &[Vec<[u32; 2]>]| -> Vec<u32> {
+            let sum = |tile: usize| {
+                let pieces = strips.iter().map(|strip| strip[tile]);
+                pieces.fold([0, 0], |[a, b], [c, d]| [a + c, b + d])
+            };
+            (0..tiles).map(|tile| tile_length(sum(tile), self.steps.side)).collect()
+        };
+        pieces.chunks(strips).flat_map(of_tile_row).collect()
+    }
+
+    /// Pieces of shore of every tile that some rows lie in.
+    fn strip_pieces(&self, rows: Range<usize>) -> Vec<[u32; 2]> {
+        let (columns, last) = (self.steps.tile[0] as usize, self.size.map(|side| side - 1));
+        let mut pieces = vec![[0; 2]; self.steps.tiles as usize];
+        for y in rows.start..rows.end.min(last[1]) {
+            let [north, south] = [&self.row(y)[1..], &self.row(y + 1)[1..]];
+            for (tile, pieces) in pieces.iter_mut().enumerate() {
+                let columns = columns * tile..(columns * (tile + 1)).min(last[0]);
+                add_pieces(north, south, columns, pieces);
+            }
+        }
+        pieces
     }
 
     /// Erodes a row of land. Returns the number of pixels that fell.
     fn erode_row(&self, y: usize, lengths: &[u32], land: &mut [u8]) -> usize {
-        let [width, _] = self.size;
+        let width = self.size[0];
         let [north, here, south] = [self.row(y.saturating_sub(1)), self.row(y), self.row(y + 1)];
         let resistance = &self.resistance[y * width..(y + 1) * width];
+        let row = self.steps.place(y, 1);
         let mut fallen = 0;
-        for x in 0..width {
-            if here[x] == 0 {
+        for start in (0..width).step_by(BLOCK) {
+            let block = start..(start + BLOCK).min(width);
+            let exposed = exposed_sides([north, here, south], block.clone());
+            // Most of an image is sea or lies inland.
+            if exposed.iter().fold(0, |any, &exposed| any | exposed) == 0 {
                 continue;
             }
-            let around =
-                [here[x.saturating_sub(1)], here[(x + 1).min(width - 1)], north[x], south[x]];
-            let exposed = 4 - around.iter().map(|&land| u32::from(land)).sum::<u32>();
-            if exposed > 0 {
-                let length = self.steps.length_at(lengths, [x, y]);
-                let force = force(self.steps.force, self.steps.attenuation, length);
-                if strength(self.steps.weakening, resistance[x], exposed) < force {
-                    land[x] = 0;
-                    fallen += 1;
+            for (x, exposed) in block.zip(exposed) {
+                if exposed > 0 {
+                    let length = self.steps.length_at(lengths, self.columns[x], row);
+                    let force = force(self.steps.force, self.steps.attenuation, length);
+                    if strength(self.steps.weakening, resistance[x], exposed.into()) < force {
+                        land[x] = 0;
+                        fallen += 1;
+                    }
                 }
             }
         }
@@ -136,14 +182,39 @@ impl ImageCoast {
     }
 }
 
-/// Adds the pieces of shore between two rows, in the squares whose western pixels lie in `columns`.
-fn add_pieces(north: &[u8], south: &[u8], columns: std::ops::Range<usize>, pieces: &mut [u32; 2]) {
-    let end = columns.end.min(north.len() - 1);
-    for x in columns.start..end {
-        let square = [north[x], north[x + 1], south[x], south[x + 1]];
-        let [straight, corners] = shore_pieces(square);
-        pieces[0] += straight;
-        pieces[1] += corners;
+/// Number of the four sides of the land pixels of a block that lie at sea, 0 for pixels at sea and
+/// behind the block; rows have a pixel more before and behind them.
+#[inline]
+fn exposed_sides([north, here, south]: [&[u8]; 3], block: Range<usize>) -> [u8; BLOCK] {
+    let (start, length) = (block.start, block.len());
+    let [north, middle, south] = [north, here, south].map(|row| &row[start + 1..][..length]);
+    let [west, east] = [&here[start..][..length], &here[start + 2..][..length]];
+    let mut exposed = [0; BLOCK];
+    for (x, exposed) in exposed[..length].iter_mut().enumerate() {
+        // All bits of a land pixel, none at sea: bytes are quicker to mask than to multiply.
+        let land = middle[x].wrapping_neg();
+        *exposed = land & (4 - west[x] - east[x] - north[x] - south[x]);
+    }
+    exposed
+}
+
+/// Adds the pieces of shore between two rows, in the squares whose western pixels lie in `columns`:
+/// [`shore_pieces`](super::numbers::shore_pieces) without a branch.
+#[inline]
+fn add_pieces(north: &[u8], south: &[u8], columns: Range<usize>, pieces: &mut [u32; 2]) {
+    for start in columns.clone().step_by(BLOCK) {
+        let length = BLOCK.min(columns.end - start);
+        let [nw, sw] = [north, south].map(|row| &row[start..][..length]);
+        let [ne, se] = [north, south].map(|row| &row[start + 1..][..length]);
+        let (mut straight, mut corners) = (0_u8, 0_u8);
+        for x in 0..length {
+            let land = nw[x] + ne[x] + sw[x] + se[x];
+            let (two, diagonal) = (u8::from(land == 2), u8::from(nw[x] == se[x]));
+            straight += two & (1 - diagonal);
+            corners += (land & 1) + 2 * (two & diagonal);
+        }
+        pieces[0] += u32::from(straight);
+        pieces[1] += u32::from(corners);
     }
 }
 

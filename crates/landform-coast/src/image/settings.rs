@@ -118,11 +118,21 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Length of shore at a pixel, blended from those of the tiles whose middles lie round it.
+    /// Where the column of a pixel lies between the middles of tiles, or its row, by `axis`: see
+    /// [`between_tiles`].
+    pub fn place(&self, pixel: usize, axis: usize) -> [u32; 2] {
+        between_tiles(pixel as u32, self.tile[axis], self.tiles)
+    }
+
+    /// Length of shore at a pixel, blended from those of the tiles whose middles lie round it; its
+    /// column and its row are given by [`Steps::place`].
     #[inline]
-    pub fn length_at(&self, lengths: &[u32], [x, y]: [usize; 2]) -> u32 {
-        let [column, east] = between_tiles(x as u32, self.tile[0], self.tiles);
-        let [row, south] = between_tiles(y as u32, self.tile[1], self.tiles);
+    pub fn length_at(
+        &self,
+        lengths: &[u32],
+        [column, east]: [u32; 2],
+        [row, south]: [u32; 2],
+    ) -> u32 {
         let last = self.tiles - 1;
         let at = |column: u32, row: u32| {
             lengths[(row.min(last) * self.tiles + column.min(last)) as usize]

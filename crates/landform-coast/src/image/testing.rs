@@ -1,7 +1,7 @@
 //! Land for tests.
 
 /// A block of land with a margin of sea, and rock at random.
-pub(super) fn island(size: [usize; 2], seed: u64) -> (Vec<u8>, Vec<f64>) {
+pub(crate) fn island(size: [usize; 2], seed: u64) -> (Vec<u8>, Vec<f64>) {
     let mut state = seed;
     let mut random = || {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -14,4 +14,14 @@ pub(super) fn island(size: [usize; 2], seed: u64) -> (Vec<u8>, Vec<f64>) {
     };
     let land = (0..width * height).map(|pixel| u8::from(inland(pixel))).collect();
     (land, (0..width * height).map(|_| random()).collect())
+}
+
+/// A graphics processor for tests; without one a word that nothing was tested, and `None`.
+#[cfg(feature = "gpu")]
+pub(crate) fn device() -> Option<()> {
+    match super::GpuCoast::check([64, 64]) {
+        Err(error) => eprintln!("NOT TESTED: {error}"),
+        Ok(()) => return Some(()),
+    }
+    None
 }

@@ -9,14 +9,16 @@ use landform_sim::fault::Fault;
 use landform_sim::field::{Field, FieldMut};
 use landform_sim::ledger::Ledger;
 use landform_sim::nodes::Space;
+use landform_sim::notes::Notes;
 use landform_sim::parameters::Problem;
 use landform_sim::process::{Begin, Declaration, Iterate, Process, ProcessApp, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::groups::{LAND_BUDGET, Land, Resistance, coast_surface, node_area_m2};
+use super::image_device::{CoastDevice, DeviceCoast};
 use crate::coast::Weakening;
-use crate::image::{ImageCoast, ImageCoastError, ImageCoastSettings};
+use crate::image::{ImageCoastError, ImageCoastSettings};
 
 /// Coast erosion in the form for images: the local perimeter is that of tiles of the map, blended
 /// between their middles (thesis, appendix B.1).
@@ -37,20 +39,24 @@ pub struct ImageCoastErosion {
     pub offset: u32,
     /// How rock resists the less, the more of its four sides lie bare.
     pub weakening: Weakening,
+    /// What computes it: the same land, bit for bit. `Graphics` is the first graphics processor
+    /// that Vulkan, Metal, DirectX 12 or OpenGL offers; the program must be built with
+    /// `--features gpu`.
+    pub device: CoastDevice,
 }
 
 impl Default for ImageCoastErosion {
     fn default() -> Self {
         let ImageCoastSettings { force, attenuation, offset, weakening } =
             ImageCoastSettings::default();
-        Self { force, attenuation, offset, weakening }
+        Self { force, attenuation, offset, weakening, device: CoastDevice::default() }
     }
 }
 
 impl ImageCoastErosion {
     /// The settings of the kernels.
     pub fn settings(&self) -> ImageCoastSettings {
-        let Self { force, attenuation, offset, weakening } = *self;
+        let Self { force, attenuation, offset, weakening, .. } = *self;
         ImageCoastSettings { force, attenuation, offset, weakening }
     }
 }
@@ -66,7 +72,7 @@ impl Process for ImageCoastErosion {
             .rebuilds::<ImageCoastState>()
             .derives("coast_surface", "m", "land above the sea, to look at", coast_surface)
             .conserves(LAND_BUDGET)
-            .scratch(3);
+            .scratch(self.device.bytes_per_node());
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -80,7 +86,8 @@ impl Process for ImageCoastErosion {
                 _ => "offset",
             };
             Problem::new(parameter, error.to_string(), "")
-        })
+        })?;
+        self.device.check([width, height])
     }
 }
 
@@ -90,36 +97,49 @@ impl Plugin for ImageCoastErosion {
     }
 }
 
-/// What happened in the latest iteration.
+/// What happened in the stage and in its latest iteration.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImageCoastRecord {
     /// Nodes that fell; none before the first iteration.
     pub events: Option<u64>,
+    /// Iterations of the stage in which something fell.
+    pub iterations: u64,
+    /// Land nodes when the stage began.
+    pub initial_land: u64,
 }
 
 /// The coast at work; all of it follows from parameters and fields.
 #[derive(Resource)]
-struct ImageCoastState(ImageCoast);
+struct ImageCoastState(DeviceCoast);
 
-/// Takes the resistances of the rock.
+/// Takes the resistances of the rock to the device.
 fn prepare(
     mut commands: Commands,
     settings: Res<Settings<ImageCoastErosion>>,
     space: Res<Space>,
     mut fault: ResMut<Fault>,
-    rock: Field<Resistance>,
+    mut notes: ResMut<Notes>,
+    (land, rock): (Field<Land>, Field<Resistance>),
 ) {
-    match ImageCoast::new([space.width(), space.height()], settings.settings(), rock.values()) {
-        Ok(coast) => commands.insert_resource(ImageCoastState(coast)),
-        Err(error) => fault.raise(error.to_string()),
+    let size = [space.width(), space.height()];
+    match DeviceCoast::new(settings.device, size, settings.settings(), rock.values()) {
+        Ok(coast) => {
+            if let Some(device) = coast.device() {
+                notes.tell(format!("{} runs on {device}", ImageCoastErosion::NAME));
+            }
+            commands.insert_resource(ImageCoastState(coast));
+            let initial_land = land.values().iter().filter(|&&land| land > 0).count() as u64;
+            commands.insert_resource(ImageCoastRecord { initial_land, ..Default::default() });
+        }
+        Err(message) => fault.raise(message),
     }
 }
 
 /// One iteration of the sea.
 fn erode(
-    mut commands: Commands,
     space: Res<Space>,
     mut state: ResMut<ImageCoastState>,
+    mut record: ResMut<ImageCoastRecord>,
     mut ledger: ResMut<Ledger>,
     mut fault: ResMut<Fault>,
     mut land: FieldMut<Land>,
@@ -129,8 +149,9 @@ fn erode(
             if fallen > 0 {
                 ledger.leave("land", "sea", fallen as f64 * node_area_m2(&space));
             }
-            commands.insert_resource(ImageCoastRecord { events: Some(fallen as u64) });
+            record.events = Some(fallen as u64);
+            record.iterations += u64::from(fallen > 0);
         }
-        Err(error) => fault.raise(error.to_string()),
+        Err(message) => fault.raise(message),
     }
 }

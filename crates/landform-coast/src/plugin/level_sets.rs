@@ -47,7 +47,9 @@ impl Metric for LevelSetActivity {
 }
 
 /// What the sea does on an image coast: `image_coast_events`, the nodes that fell in the latest
-/// iteration (none yet at the beginning), which is 0 when the coast rests.
+/// iteration (none yet at the beginning), which is 0 when the coast rests;
+/// `image_coast_iterations`, how many iterations it took until then; `image_land_left_percent` of
+/// the land when the stage began.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImageCoastActivity {}
@@ -56,12 +58,20 @@ impl Metric for ImageCoastActivity {
     type Memory = ();
     const NAME: &'static str = "ImageCoastActivity";
 
+    fn fields(&self) -> Vec<String> {
+        vec!["land".to_owned()]
+    }
+
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let record = snapshot.world().get_resource::<ImageCoastRecord>();
-        let events = record.and_then(|record| record.events);
-        Ok(events
-            .map(|events| ("image_coast_events".to_owned(), events as f64))
-            .into_iter()
-            .collect())
+        let world = snapshot.world();
+        let Some(record) = world.get_resource::<ImageCoastRecord>() else { return Ok(Vec::new()) };
+        let Some(events) = record.events else { return Ok(Vec::new()) };
+        let left = stored_values::<Land>(world).iter().filter(|&&land| land > 0).count();
+        let values = [
+            ("image_coast_events", events as f64),
+            ("image_coast_iterations", record.iterations as f64),
+            ("image_land_left_percent", 100.0 * left as f64 / record.initial_land.max(1) as f64),
+        ];
+        Ok(values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
     }
 }

@@ -4,6 +4,7 @@ mod erosion;
 mod groups;
 mod heights;
 mod image;
+mod image_device;
 mod interior;
 mod level_sets;
 mod metrics;
@@ -16,6 +17,7 @@ pub use groups::{
 };
 pub use heights::{Interpolation, LevelSetHeights, RelaxationRecord};
 pub use image::{ImageCoastErosion, ImageCoastRecord};
+pub use image_device::CoastDevice;
 pub use interior::{InteriorRecord, IslandInterior};
 pub use level_sets::{ImageCoastActivity, LevelSetActivity};
 pub use metrics::{CoastActivity, Islands};

@@ -18,6 +18,7 @@ use crate::initial::InitialContext;
 use crate::ledger::Ledger;
 use crate::metric::{Meter, RowsKept, Series};
 use crate::nodes::spawn_nodes;
+use crate::notes::Notes;
 use crate::output::Sink;
 use crate::parameters::Problem;
 use crate::process::{Access, Declaration, GroupEntry};
@@ -93,6 +94,7 @@ impl Simulation {
         world.insert_resource(Clock { seed: scenario.seed, ..Clock::default() });
         world.insert_resource(Ledger::default());
         world.insert_resource(Fault::default());
+        world.insert_resource(Notes::default());
         fill(&mut app, &scenario, &domain, folder)?;
         let state = State::new(app.world(), groups, &uses)?;
 

@@ -15,6 +15,8 @@ pub struct Progress<'a> {
     pub iteration: u64,
     /// Iterations that the stage will have, when that is known.
     pub iterations: Option<u64>,
+    /// What processes have told until now, the latest last.
+    pub notes: &'a [String],
 }
 
 /// Is told after each iteration and when a stage begins; may end the run.

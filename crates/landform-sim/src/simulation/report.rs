@@ -38,6 +38,8 @@ pub struct Report {
     pub ledger: Ledger,
     /// The files that outputs wrote.
     pub outputs: Vec<OutputFile>,
+    /// What processes told: see [`Notes`](crate::notes::Notes).
+    pub notes: Vec<String>,
     /// What a person should know.
     pub warnings: Vec<String>,
 }

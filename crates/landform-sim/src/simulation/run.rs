@@ -11,6 +11,7 @@ use super::stage;
 use super::turn::Turn;
 use super::{Progress, ProgressHook, Report, RunError, Simulation, StageReport};
 use crate::clock::Clock;
+use crate::notes::Notes;
 use crate::output::{Moment, OutputFile, Sink};
 use crate::parameters::Problem;
 use crate::scenario::StageEntry;
@@ -167,8 +168,9 @@ impl Simulation {
         stage: usize,
         stage_is_over: bool,
         hook: &mut dyn ProgressHook,
-        report: &Report,
+        report: &mut Report,
     ) -> Result<(), RunError> {
+        self.take_notes(report);
         let clock = *self.app.world().resource::<Clock>();
         let stages = self.stages.len();
         let entry = &self.stages[stage];
@@ -178,6 +180,7 @@ impl Simulation {
             stage_name: &entry.name,
             iteration: clock.iteration,
             iterations: entry.stop.latest_end(&entry.ends()),
+            notes: self.app.world().resource::<Notes>().all(),
         };
         let ends = hook.progress(&progress).is_break();
         let due = self.keeper.as_mut().is_some_and(|keeper| keeper.is_due(&progress) || ends);
@@ -277,7 +280,18 @@ impl Simulation {
         self.series.names().iter().filter_map(latest).collect()
     }
 
+    /// Puts the notes of processes into the report, after those of the runs that this one goes on
+    /// with.
+    fn take_notes(&self, report: &mut Report) {
+        for note in self.app.world().resource::<Notes>().all() {
+            if !report.notes.contains(note) {
+                report.notes.push(note.clone());
+            }
+        }
+    }
+
     fn summarise(&self, report: &mut Report) {
+        self.take_notes(report);
         let snapshot = self.snapshot();
         report.title = self.title.clone();
         report.seed = snapshot.clock().seed;

@@ -56,7 +56,11 @@ impl Plugin for Carry {
         app.insert_settings(self).init_resource::<Steps>();
         app.add_systems(
             Begin,
-            |mut commands: Commands, space: Res<Space>, mut sand: FieldMut<Sand>| {
+            |mut commands: Commands,
+             space: Res<Space>,
+             mut notes: ResMut<Notes>,
+             mut sand: FieldMut<Sand>| {
+                notes.tell("walkers carry sand");
                 commands.insert_resource(Half(space.node_count() / 2));
                 sand.values_mut()[0] += 1.0;
             },
@@ -177,11 +181,24 @@ fn checkpoints() -> (Vec<Checkpoint<'static>>, (String, Report)) {
 fn a_run_goes_on_from_every_iteration_as_if_nothing_had_happened() {
     let (checkpoints, expected) = checkpoints();
     assert_eq!(checkpoints.len(), (1 + 8) + (1 + 5), "at the beginning and after each iteration");
+    assert_eq!(expected.1.notes, ["walkers carry sand"], "told in both stages, listed once");
     for (number, checkpoint) in checkpoints.into_iter().enumerate() {
         let mut resumed = simulation(SCENARIO);
         resumed.resume(checkpoint, Path::new("")).expect("it fits");
         assert_eq!(end(&mut resumed), expected, "checkpoint {number}");
     }
+}
+
+#[test]
+fn notes_are_told_from_the_beginning_of_a_stage_on() {
+    let mut told = Vec::new();
+    let mut hook = |progress: &Progress<'_>| {
+        told.push(progress.notes.len());
+        ControlFlow::Continue(())
+    };
+    let mut report = Report::default();
+    simulation(SCENARIO).run(Path::new(""), &mut hook, &mut report).expect("a run");
+    assert_eq!(told, [1; (1 + 8) + (1 + 5)]);
 }
 
 #[test]

@@ -5,18 +5,21 @@ use std::ops::ControlFlow;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use landform_sim::simulation::{Progress, ProgressHook};
 
-use super::interrupt;
+use super::{interrupt, talk};
 
-/// Shows where a run stands on standard error, with the time that is left.
+/// Shows where a run stands on standard error, with the time that is left, and what its processes
+/// tell.
 pub(super) struct Bar {
     bar: ProgressBar,
     quiet: bool,
     stage: Option<usize>,
+    /// Notes that were told.
+    told: usize,
 }
 
 impl Bar {
     pub(super) fn new(quiet: bool) -> Self {
-        Self { bar: ProgressBar::hidden(), quiet, stage: None }
+        Self { bar: ProgressBar::hidden(), quiet, stage: None, told: 0 }
     }
 
     pub(super) fn finish(&self) {
@@ -53,6 +56,10 @@ impl ProgressHook for Bar {
         if self.stage.replace(progress.stage) != Some(progress.stage) {
             self.begin_stage(progress);
         }
+        for note in progress.notes.iter().skip(self.told) {
+            self.bar.suspend(|| talk::tell(note));
+        }
+        self.told = progress.notes.len();
         self.bar.set_position(progress.iteration);
         match interrupt::asked() {
             true => ControlFlow::Break(()),

@@ -1,4 +1,4 @@
-// Image coasts (thesis, appendix B.1) in whole numbers: the formulas of numbers.rs.
+// Image coasts (thesis, appendix B.1) in whole numbers: the formulas of ../numbers.rs.
 
 struct Settings {
     size: vec2<u32>,
@@ -11,45 +11,56 @@ struct Settings {
     iteration: u32,
 }
 
-// Land is 1, sea 0. `pieces` has straight and corner-cutting pieces of shore of every tile, for
-// each iteration of a batch; `fallen` the pixels that fell in it.
+// A pixel is a word: its resistance in the lower half, its land (1, at sea 0) above.
+// `pieces` has straight and corner-cutting pieces of shore of every tile, at iterations of even and
+// of odd number in turn. `fallen` has for every iteration of a batch where the pixels end that fell
+// until then, and after BATCH of these numbers the pixels.
 @group(0) @binding(0) var<uniform> settings: Settings;
-@group(0) @binding(1) var<storage, read> resistance: array<u32>;
-@group(0) @binding(2) var<storage, read> before: array<u32>;
-@group(0) @binding(3) var<storage, read_write> after: array<u32>;
-@group(0) @binding(4) var<storage, read_write> pieces: array<atomic<u32>>;
-@group(0) @binding(5) var<storage, read_write> fallen: array<atomic<u32>>;
+@group(0) @binding(1) var<storage, read> before: array<u32>;
+@group(0) @binding(2) var<storage, read_write> after: array<u32>;
+@group(0) @binding(3) var<storage, read_write> pieces: array<atomic<u32>>;
+@group(0) @binding(4) var<storage, read_write> fallen: array<atomic<u32>>;
 
+const BATCH: u32 = 64u;
 const LONGEST: u32 = 8388607u;
 const CORNER: u32 = 46341u;
 
-fn pixel(x: u32, y: u32) -> u32 {
-    return before[y * settings.size.x + x];
+fn land(x: u32, y: u32) -> u32 {
+    return before[y * settings.size.x + x] >> 16u;
+}
+
+// Where the pieces of all tiles are counted, at an iteration.
+fn slots(iteration: u32) -> u32 {
+    return (iteration & 1u) * 2u * settings.tiles * settings.tiles;
 }
 
 // Where the pieces of a tile are counted.
 fn slot(column: u32, row: u32) -> u32 {
-    return 2u * ((settings.iteration * settings.tiles + row) * settings.tiles + column);
+    return slots(settings.iteration) + 2u * (row * settings.tiles + column);
 }
 
 @compute @workgroup_size(16, 16)
 fn measure(@builtin(global_invocation_id) id: vec3<u32>) {
+    let now = settings.iteration;
+    if id.x == 0u && id.y == 0u && now > 0u {
+        atomicStore(&fallen[now], atomicLoad(&fallen[now - 1u]));
+    }
     if id.x + 1u >= settings.size.x || id.y + 1u >= settings.size.y {
         return;
     }
-    let nw = pixel(id.x, id.y);
-    let ne = pixel(id.x + 1u, id.y);
-    let sw = pixel(id.x, id.y + 1u);
-    let se = pixel(id.x + 1u, id.y + 1u);
-    let land = nw + ne + sw + se;
-    if land == 0u || land == 4u {
+    let nw = land(id.x, id.y);
+    let ne = land(id.x + 1u, id.y);
+    let sw = land(id.x, id.y + 1u);
+    let se = land(id.x + 1u, id.y + 1u);
+    let count = nw + ne + sw + se;
+    if count == 0u || count == 4u {
         return;
     }
     let tile = slot(id.x / settings.tile.x, id.y / settings.tile.y);
-    if land == 2u && nw != se {
+    if count == 2u && nw != se {
         atomicAdd(&pieces[tile], 1u);
     } else {
-        atomicAdd(&pieces[tile + 1u], select(1u, 2u, land == 2u));
+        atomicAdd(&pieces[tile + 1u], select(1u, 2u, count == 2u));
     }
 }
 
@@ -114,17 +125,26 @@ fn erode(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= size.x || id.y >= size.y {
         return;
     }
-    let here = pixel(id.x, id.y);
-    let west = pixel(max(id.x, 1u) - 1u, id.y);
-    let east = pixel(min(id.x + 1u, size.x - 1u), id.y);
-    let north = pixel(id.x, max(id.y, 1u) - 1u);
-    let south = pixel(id.x, min(id.y + 1u, size.y - 1u));
-    let exposed = 4u - (west + east + north + south);
-    var left = here;
     let at = id.y * size.x + id.x;
-    if here == 1u && exposed > 0u && strength(resistance[at], exposed) < force_at(id.x, id.y) {
-        left = 0u;
-        atomicAdd(&fallen[settings.iteration], 1u);
+    if at < settings.tiles * settings.tiles {
+        // Nobody looks at these pieces before the next iteration counts them.
+        let next = slots(settings.iteration + 1u) + 2u * at;
+        atomicStore(&pieces[next], 0u);
+        atomicStore(&pieces[next + 1u], 0u);
     }
-    after[at] = left;
+    var cell = before[at];
+    if cell > 0xffffu {
+        let west = land(max(id.x, 1u) - 1u, id.y);
+        let east = land(min(id.x + 1u, size.x - 1u), id.y);
+        let north = land(id.x, max(id.y, 1u) - 1u);
+        let south = land(id.x, min(id.y + 1u, size.y - 1u));
+        let exposed = 4u - (west + east + north + south);
+        let rock = cell & 0xffffu;
+        if exposed > 0u && strength(rock, exposed) < force_at(id.x, id.y) {
+            cell = rock;
+            let place = atomicAdd(&fallen[settings.iteration], 1u);
+            atomicStore(&fallen[BATCH + place], at);
+        }
+    }
+    after[at] = cell;
 }
