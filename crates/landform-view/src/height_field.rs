@@ -12,6 +12,7 @@ pub struct HeightField<'a> {
     height: usize,
     spacing_m: f64,
     heights: &'a [f64],
+    water_depths: Option<&'a [f64]>,
 }
 
 impl<'a> HeightField<'a> {
@@ -42,7 +43,26 @@ impl<'a> HeightField<'a> {
             let value = heights[node];
             return Err(ViewError::NotFinite { what: "the height", value, column, row });
         }
-        Ok(Self { width, height, spacing_m, heights })
+        Ok(Self { width, height, spacing_m, heights, water_depths: None })
+    }
+
+    /// The field with depths of water on it, in metres, a node each: 0 where it is dry.
+    ///
+    /// # Errors
+    /// [`ViewError::Length`], and [`ViewError::NotFinite`] with the first node whose depth is
+    /// below 0, no number, or beyond 1e12 m.
+    pub fn with_water(self, depths: &'a [f64]) -> Result<Self, ViewError> {
+        let (width, height) = (self.width, self.height);
+        if depths.len() != width * height {
+            let (what, found) = ("the depths of water", depths.len());
+            return Err(ViewError::Length { what, found, width, height });
+        }
+        if let Some(node) = depths.iter().position(|depth| !(0.0..=1e12).contains(depth)) {
+            let (what, value) = ("the depth of water", depths[node]);
+            let (column, row) = (node % width, node / width);
+            return Err(ViewError::NotFinite { what, value, column, row });
+        }
+        Ok(Self { water_depths: Some(depths), ..self })
     }
 
     /// Number of columns.
@@ -63,6 +83,11 @@ impl<'a> HeightField<'a> {
     /// Heights in metres, in node order.
     pub fn heights(&self) -> &'a [f64] {
         self.heights
+    }
+
+    /// Depths of the water on it in metres, in node order, if it has any.
+    pub fn water_depths(&self) -> Option<&'a [f64]> {
+        self.water_depths
     }
 
     /// Lowest and highest height in metres.

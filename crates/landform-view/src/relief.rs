@@ -24,7 +24,7 @@ pub struct ReliefOptions {
     pub pixels_per_node: f64,
     /// Whether the field continues at its other side.
     pub periodic: bool,
-    /// A level below which there is water.
+    /// Water at a level, or of the field's own depths; none is drawn when missing.
     pub water: Option<Water>,
 }
 
@@ -93,7 +93,7 @@ pub fn shaded_relief(field: &HeightField<'_>, options: &ReliefOptions) -> Result
     let surface = Surface::sample(field, sampling)?;
     let mut colours = shade(&surface, &options.ground, &options.light);
     if let Some(water) = &options.water {
-        water.cover(&surface, &mut colours);
+        water.cover(&surface, water.surface(field, sampling)?.as_ref(), &mut colours);
     }
     let [width, height] = size;
     let mut rgb = vec![[0; 3]; colours.len()];

@@ -22,7 +22,7 @@ pub(crate) struct Surface {
     pub(crate) periodic: bool,
     /// Heights in metres above `datum`, exaggerated.
     pub(crate) heights: Vec<f32>,
-    /// Height of the lowest node of the field, in metres.
+    /// The height, in metres, that heights are counted from: that of the lowest node, but for water.
     pub(crate) datum: f64,
     /// Vertical exaggeration.
     pub(crate) exaggeration: f64,
@@ -52,9 +52,18 @@ impl Surface {
     /// every height and have continuous slopes. Beyond an open edge the field goes on straight.
     /// Where the surface is the coarser one, heights are averaged over its cells first.
     pub(crate) fn sample(field: &HeightField<'_>, sampling: Sampling) -> Result<Self, ViewError> {
+        Self::sample_above(field, field.range()[0], sampling)
+    }
+
+    /// The same with heights above a datum of its own, below which they may lie.
+    pub(crate) fn sample_above(
+        field: &HeightField<'_>,
+        datum: f64,
+        sampling: Sampling,
+    ) -> Result<Self, ViewError> {
         let [columns, rows] = sampling.size;
         ViewError::check_size("the resampled surface", sampling.size, 2)?;
-        let [datum, top] = field.range();
+        let top = field.range()[1];
         check_relief(field, top - datum, sampling.exaggeration)?;
         let block = (sampling.step.floor() as usize).max(1);
         let nodes = [field.width(), field.height()];

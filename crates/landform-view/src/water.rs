@@ -1,16 +1,24 @@
-//! Water that stands at one level.
+//! Water over the ground: seas at a level, rivers and lakes of any depth.
 
 use rayon::prelude::*;
 
-use crate::ViewError;
 use crate::light::{Rgb, decode, mix};
-use crate::surface::Surface;
+use crate::surface::{Sampling, Surface, bound};
+use crate::{HeightField, ViewError};
 
-/// A water level and what the water looks like.
+/// What water looks like, and where it is.
+///
+/// It stands wherever the ground is below `level_m`, and wherever the depths of a field
+/// ([`HeightField::with_water`]) are at least `least_m`. It is a surface of its own, as far above
+/// the ground as the water is deep, through which the ground is seen the darker and bluer the
+/// longer the way through the water (thesis, section A.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Water {
-    /// Height of the surface in metres.
-    pub level_m: f64,
+    /// Height of a sea in metres; none when missing.
+    pub level_m: Option<f64>,
+    /// Depth in metres of the shallowest water of a field that is drawn: about that of the
+    /// smallest channel.
+    pub least_m: f64,
     /// Colour of deep water, sRGB.
     pub colour: [u8; 3],
     /// Depth in metres at which about two thirds of the ground's colour are gone.
@@ -18,15 +26,23 @@ pub struct Water {
 }
 
 impl Water {
-    /// Blue-green water at a level; it hides the ground at depths of a few `clear_m` metres.
+    /// Blue-green water that hides the ground at depths of a few `clear_m` metres: the depths of
+    /// a field, from a tenth of `clear_m`.
+    pub fn new(clear_m: f64) -> Self {
+        Self { level_m: None, least_m: 0.1 * clear_m, colour: [38, 92, 120], clear_m }
+    }
+
+    /// The same at a level.
     pub fn at(level_m: f64, clear_m: f64) -> Self {
-        Self { level_m, colour: [38, 92, 120], clear_m }
+        Self { level_m: Some(level_m), ..Self::new(clear_m) }
     }
 
     pub(crate) fn check(&self) -> Result<(), ViewError> {
         let check = ViewError::check_option;
-        check("water.level_m", self.level_m, [-1e12, 1e12], "a height in metres")?;
+        let level = self.level_m.unwrap_or_default();
+        check("water.level_m", level, [-1e12, 1e12], "a height in metres")?;
         let range = [f64::MIN_POSITIVE, f64::MAX];
+        check("water.least_m", self.least_m, range, "a positive number of metres")?;
         check("water.clear_m", self.clear_m, range, "a positive number of metres")
     }
 
@@ -38,13 +54,89 @@ impl Water {
         mix(ground, deep, share as f32)
     }
 
-    /// Covers the nodes of a surface that lie below the level, seen from above.
-    pub(crate) fn cover(&self, surface: &Surface, colours: &mut [Rgb]) {
-        colours.par_iter_mut().zip(&surface.heights).for_each(|(colour, &height)| {
-            let depth = self.level_m - surface.metres(height);
+    /// Covers the nodes of a surface that lie below water, seen from above.
+    pub(crate) fn cover(&self, ground: &Surface, water: Option<&Surface>, colours: &mut [Rgb]) {
+        let metres = |surface: &Surface, node: usize| surface.metres(surface.heights[node]);
+        colours.par_iter_mut().enumerate().for_each(|(node, colour)| {
+            let own = water.map(|water| metres(water, node));
+            let top = own.or(self.level_m).unwrap_or(f64::NEG_INFINITY);
+            let depth = top - metres(ground, node);
             if depth > 0.0 {
                 *colour = self.over(*colour, depth);
             }
         });
+    }
+
+    /// The surface of the water on a field, sampled like the ground; none when the field has no
+    /// depths.
+    pub(crate) fn surface(
+        &self,
+        field: &HeightField<'_>,
+        sampling: Sampling,
+    ) -> Result<Option<Surface>, ViewError> {
+        let Some(depths) = field.water_depths() else { return Ok(None) };
+        let levels = self.levels(field, depths, sampling.periodic);
+        let raised = HeightField::new(field.width(), field.height(), field.spacing_m(), &levels)?;
+        Surface::sample_above(&raised, field.range()[0], sampling).map(Some)
+    }
+
+    /// Height of the water at each node; below the ground at dry ones, so that the shore lies
+    /// where both surfaces meet.
+    fn levels(&self, field: &HeightField<'_>, depths: &[f64], periodic: bool) -> Vec<f64> {
+        let (heights, sea) = (field.heights(), self.level_m.unwrap_or(f64::NEG_INFINITY));
+        let wet = |node: usize| {
+            let own = if depths[node] >= self.least_m { depths[node] } else { 0.0 };
+            let level = sea.max(heights[node] + own);
+            (level > heights[node]).then_some(level)
+        };
+        let (width, height) = (field.width(), field.height());
+        let node_at = |column: isize, row: isize| {
+            bound(column, width, periodic) + width * bound(row, height, periodic)
+        };
+        let level = |node: usize| {
+            let (column, row) = ((node % width) as isize, (node / width) as isize);
+            let around = (0..9).map(|step| node_at(column + step % 3 - 1, row + step / 3 - 1));
+            wet(node).unwrap_or_else(|| {
+                let (sum, count) = around
+                    .filter_map(wet)
+                    .fold((0.0, 0.0), |(sum, count), level| (sum + level, count + 1.0));
+                // Water that flows past, above this ground, does not lie on it.
+                let below = heights[node] - self.least_m;
+                if count > 0.0 { below.min(sum / count) } else { below }
+            })
+        };
+        (0..heights.len()).into_par_iter().map(level).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ditch of 2 m with 1 m of water: the shore lies half-way up its banks.
+    #[test]
+    fn shores_lie_where_the_water_meets_the_ground() {
+        let heights: Vec<f64> =
+            (0..9 * 4).map(|node| [0.0, 2.0][usize::from(node % 9 != 4)]).collect();
+        let depths: Vec<f64> = heights.iter().map(|height| (1.0 - height).max(0.0)).collect();
+        let field = HeightField::new(9, 4, 1.0, &heights).unwrap().with_water(&depths).unwrap();
+        let levels = Water::new(1.0).levels(&field, &depths, false);
+        assert_eq!(levels[..9], [1.9, 1.9, 1.9, 1.0, 1.0, 1.0, 1.9, 1.9, 1.9]);
+        // A film below the least depth is not drawn.
+        let film = Water { least_m: 1.5, ..Water::new(1.0) }.levels(&field, &depths, false);
+        assert!(film.iter().zip(&heights).all(|(level, height)| level < height));
+        // A sea covers the film and the plain alike.
+        let sea = Water { least_m: 1.5, ..Water::at(3.0, 1.0) }.levels(&field, &depths, false);
+        assert_eq!(sea, [3.0; 36]);
+    }
+
+    #[test]
+    fn bad_depths_are_refused() {
+        let heights = [0.0; 4];
+        let field = HeightField::new(2, 2, 1.0, &heights).unwrap();
+        let refused = field.with_water(&[0.0, 1.0, -1e-9, 0.0]).unwrap_err();
+        assert!(refused.to_string().contains("the depth of water"), "{refused}");
+        assert!(field.with_water(&[f64::NAN; 4]).is_err());
+        assert!(field.with_water(&[0.0; 3]).is_err());
     }
 }

@@ -71,7 +71,7 @@ pub struct PerspectiveOptions {
     pub light: Light,
     /// What lies around the field.
     pub surroundings: Surroundings,
-    /// A level below which there is water.
+    /// Water at a level, or of the field's own depths; none is drawn when missing.
     pub water: Option<Water>,
     /// Colours of the backdrop, sRGB: at the horizon (or the foot of the picture) and at its top.
     pub sky: [[u8; 3]; 2],
@@ -131,8 +131,10 @@ impl PerspectiveOptions {
 /// [`ViewError::TooLarge`] for pictures of no size or beyond memory.
 pub fn render(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<Image, ViewError> {
     options.check()?;
-    let surface = surface(field, options)?;
-    let scene = Scene::new(&surface, options);
+    let sampling = sampling(field, options)?;
+    let surface = Surface::sample(field, sampling)?;
+    let water = options.water.map(|water| water.surface(field, sampling)).transpose()?.flatten();
+    let scene = Scene::new(&surface, water.as_ref(), options);
     let [width, height] = options.size;
     let mut rgb = vec![[0; 3]; width * height];
     rgb.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
@@ -150,16 +152,16 @@ pub fn render(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<I
 /// As for [`render`].
 pub fn camera(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<Camera, ViewError> {
     options.check()?;
-    let surface = surface(field, options)?;
+    let surface = Surface::sample(field, sampling(field, options)?)?;
     Ok(place_camera(&surface, options))
 }
 
 /// The surface that is drawn: about a node a pixel, so that small fields have smooth slopes and
 /// large ones no more detail than the picture shows.
-fn surface(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<Surface, ViewError> {
+fn sampling(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<Sampling, ViewError> {
     let exaggeration = options.vertical_exaggeration;
-    if let Some(water) = options.water {
-        check_relief(field, water.level_m - field.range()[0], exaggeration)?;
+    if let Some(level_m) = options.water.and_then(|water| water.level_m) {
+        check_relief(field, level_m - field.range()[0], exaggeration)?;
     }
     if let Surroundings::Block { depth_m: Some(depth), .. } = options.surroundings {
         check_relief(field, depth, exaggeration)?;
@@ -175,15 +177,14 @@ fn surface(field: &HeightField<'_>, options: &PerspectiveOptions) -> Result<Surf
         true => (size as f64 / step).round() as usize,
         false => ((size - 1) as f64 / step).floor() as usize + 1,
     };
-    let sampling = Sampling {
+    Ok(Sampling {
         size: [nodes(field.width()), nodes(field.height())].map(|nodes| nodes.max(2)),
         origin: 0.0,
         step,
         periodic,
         smoothing: options.smoothing_nodes,
         exaggeration,
-    };
-    Surface::sample(field, sampling)
+    })
 }
 
 /// The camera that frames the surface and its block.
@@ -208,7 +209,8 @@ fn place_camera(surface: &Surface, options: &PerspectiveOptions) -> Camera {
 fn outline(surface: &Surface, options: &PerspectiveOptions) -> Vec<DVec3> {
     const PARTS: usize = 24;
     let foot = Block::new(surface, options).map_or(0.0, |block| block.foot);
-    let level = options.water.map_or(0.0, |water| surface.raised(water.level_m));
+    let sea = options.water.and_then(|water| water.level_m);
+    let level = sea.map_or(0.0, |level_m| surface.raised(level_m));
     let [columns, rows] = [surface.columns, surface.rows];
     let point = |column: usize, row: usize, height: f64| {
         let [x, y] = [column, rows - 1 - row].map(|node| node as f64 * surface.spacing);

@@ -24,8 +24,8 @@ pub(super) struct Scene<'a> {
     camera: Camera,
     /// The cut sides; nothing for endless ground.
     block: Option<Block>,
-    /// The water and its level above the datum, exaggerated.
-    water: Option<(Water, f64)>,
+    /// The water, and where its surface is.
+    water: Option<(Water, Pool<'a>)>,
     /// Colours of the backdrop, at its foot and at its top.
     sky: [Rgb; 2],
     /// Vertical parts of the directions in which the backdrop has them.
@@ -36,9 +36,57 @@ pub(super) struct Scene<'a> {
     clear: f64,
 }
 
+/// Where the surface of water is.
+enum Pool<'a> {
+    /// At a height above the datum, exaggerated.
+    Level(f64),
+    /// On a surface with the datum of the ground.
+    Surface(&'a Surface, Marcher<'a>),
+}
+
+impl Pool<'_> {
+    fn highest(&self) -> f64 {
+        match self {
+            Self::Level(level) => *level,
+            Self::Surface(surface, _) => surface.highest.into(),
+        }
+    }
+
+    /// Distance, within `range`, at which a ray first is below the water, and the cosine between
+    /// the ray and the normal of the water there.
+    fn hit(&self, ray: &Ray, range: [f64; 2]) -> Option<(f64, f64)> {
+        match self {
+            Self::Level(level) => {
+                let [from, to] = ray.clip(2, f64::MIN, *level, range);
+                (from < to).then_some((from, -ray.step[2].min(0.0)))
+            }
+            Self::Surface(surface, marcher) => {
+                let distance = marcher.hit(ray, range)?;
+                let [column, row, _] = ray.at(distance);
+                Some((distance, facing(surface, [column, row], ray)))
+            }
+        }
+    }
+}
+
+/// Cosine between a ray and the normal of a surface below it, at least 0.
+fn facing(surface: &Surface, [column, row]: [f64; 2], ray: &Ray) -> f64 {
+    let node = |place: f64, size: usize| bound(place.round() as isize, size, surface.periodic);
+    let node = [node(column, surface.columns), node(row, surface.rows)];
+    let [east, north] = surface.slope(node[0], node[1]).map(f64::from);
+    let normal = DVec3::new(-east, -north, 1.0).normalize();
+    let [columns, rows, up] = ray.step;
+    let along = DVec3::new(columns * surface.spacing, -rows * surface.spacing, up);
+    (-normal.dot(along)).max(0.0)
+}
+
 impl<'a> Scene<'a> {
-    /// Lights the surface and places the camera.
-    pub(super) fn new(surface: &'a Surface, options: &'a PerspectiveOptions) -> Self {
+    /// Lights the surface and places the camera. `water` is the surface of water of a field.
+    pub(super) fn new(
+        surface: &'a Surface,
+        water: Option<&'a Surface>,
+        options: &'a PerspectiveOptions,
+    ) -> Self {
         let camera = super::place_camera(surface, options);
         let colours = shade(surface, &options.ground, &options.light);
         let half = [surface.columns, surface.rows].map(|n| n as f64 * surface.spacing / 2.0);
@@ -49,7 +97,11 @@ impl<'a> Scene<'a> {
         let endless = options.surroundings == Surroundings::Repeat;
         // Endless ground ends at the horizon, where the sky has to begin.
         let sky_range = if endless { [0.0, top.max(0.15)] } else { [foot, top] };
-        let raised = |water: Water| (water, f64::from(surface.raised(water.level_m)));
+        let pool = |look: Water| {
+            let level = |level_m: f64| Pool::Level(surface.raised(level_m).into());
+            let pool = water.map(|water| Pool::Surface(water, Marcher::new(water)));
+            pool.or_else(|| look.level_m.map(level)).map(|pool| (look, pool))
+        };
         Self {
             options,
             surface,
@@ -57,7 +109,7 @@ impl<'a> Scene<'a> {
             texture: Texture::new(surface, colours),
             camera,
             block: Block::new(surface, options),
-            water: options.water.map(raised),
+            water: options.water.and_then(pool),
             sky: options.sky.map(|colour| colour.map(decode)),
             sky_range,
             diagonal,
@@ -102,7 +154,7 @@ impl<'a> Scene<'a> {
 
     /// Distances between which the ray is over the field and not above everything.
     fn over_field(&self, ray: &Ray) -> [f64; 2] {
-        let level = self.water.map_or(0.0, |(_, level)| level);
+        let level = self.water.as_ref().map_or(0.0, |(_, pool)| pool.highest());
         let top = f64::from(self.surface.highest).max(level);
         let Some(block) = &self.block else {
             return ray.clip(2, f64::MIN, top, [0.0, FARTHEST * self.diagonal]);
@@ -127,7 +179,7 @@ impl<'a> Scene<'a> {
         }
         let ground = hit.map(|distance| (distance, self.ground(ray, distance)));
         match &self.water {
-            Some((water, level)) => self.wet(ray, range, ground, (water, *level), backdrop),
+            Some((water, pool)) => self.wet(ray, range, ground, (water, pool), backdrop),
             None => ground,
         }
     }
@@ -136,13 +188,7 @@ impl<'a> Scene<'a> {
     fn ground(&self, ray: &Ray, distance: f64) -> Rgb {
         let [column, row, _] = ray.at(distance);
         let surface = self.surface;
-        let node = |place: f64, size: usize| bound(place.round() as isize, size, surface.periodic);
-        let node = [node(column, surface.columns), node(row, surface.rows)];
-        let [east, north] = surface.slope(node[0], node[1]).map(f64::from);
-        let normal = DVec3::new(-east, -north, 1.0).normalize();
-        let [east, south, up] = ray.step;
-        let along = DVec3::new(east * surface.spacing, -south * surface.spacing, up);
-        let facing = normal.dot(along).abs().max(0.05);
+        let facing = facing(surface, [column, row], ray).max(0.05);
         let angle = self.camera.pixel_angle() / self.options.supersampling as f64;
         // Between the short and the long side of the footprint on the slope.
         let width = distance * angle / surface.spacing / facing.sqrt();
@@ -155,27 +201,25 @@ impl<'a> Scene<'a> {
         ray: &Ray,
         range: [f64; 2],
         ground: Option<(f64, Rgb)>,
-        (water, level): (&Water, f64),
+        (water, pool): (&Water, &Pool<'_>),
         backdrop: Rgb,
     ) -> Option<(f64, Rgb)> {
-        let under = ray.clip(2, f64::MIN, level, range);
         let end = ground.map_or(range[1], |(distance, _)| distance);
-        if under[0] >= end.min(under[1]) {
+        let Some((surface, facing)) = pool.hit(ray, range).filter(|(at, _)| *at < end) else {
             return ground;
-        }
-        let path_m = (end - under[0]) / self.surface.exaggeration;
+        };
+        let path_m = (end - surface) / self.surface.exaggeration;
         // A ray that meets no ground leaves by a far side; a deep body has nothing bright there.
         let bed = ground.map_or(water.colour.map(decode), |(_, colour)| colour);
         let body = water.over(bed, path_m);
-        if under[0] == range[0] {
-            return Some((under[0], body));
+        if surface == range[0] {
+            return Some((surface, body));
         }
         // Reflection by the approximation of Schlick (1994, "An inexpensive BRDF model for
         // physically-based rendering").
-        let grazing = 1.0 + ray.step[2].min(0.0);
-        let mirrored = 0.02 + 0.98 * grazing.powi(5);
+        let mirrored = 0.02 + 0.98 * (1.0 - facing).powi(5);
         let reflected = mix(backdrop, self.sky[1], 0.6);
-        Some((under[0], mix(body, reflected, mirrored as f32)))
+        Some((surface, mix(body, reflected, mirrored as f32)))
     }
 
     /// Colour of the backdrop: between its two colours by the vertical part of the direction.

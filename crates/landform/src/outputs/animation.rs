@@ -11,8 +11,7 @@ use landform_view::animation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::field_file;
-use super::look::{Look, picture_text, problem};
+use super::look::{Look, Subject, picture_text, problem};
 
 /// An animation of a field: APNG (`.png`, `.apng`) or GIF, a frame every so many iterations.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -48,7 +47,7 @@ impl Output for Animation {
     const NAME: &'static str = "Animation";
 
     fn fields(&self) -> Vec<String> {
-        vec![self.field.clone()]
+        self.look.fields(&self.field)
     }
 
     fn file(&self) -> Option<&Path> {
@@ -136,8 +135,8 @@ impl AnimationSink {
     }
 
     fn frame(&mut self, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
-        let (values, entry) = field_file::values(snapshot, &self.settings.field)?;
-        let image = self.settings.look.draw(snapshot.lattice(), &values, entry.unit);
+        let Animation { field, look, .. } = &self.settings;
+        let image = look.draw(snapshot.lattice(), &Subject::of(snapshot, field, look)?);
         let image = image.map_err(|error| problem(&error))?;
         match &mut self.encoder {
             Some(encoder) => encoder.add(&image).map_err(|error| problem(&error)),

@@ -21,11 +21,12 @@ pub use field_series::FieldSeries;
 pub use island_table::IslandTable;
 pub use landform_sim::output::When;
 pub use level_lines::LevelLines;
-pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief};
+pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief, WaterDepths};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;
 pub use series_file::SeriesFile;
 
 pub(crate) use field_file::{metadata, raster_of};
+pub(crate) use look::Subject;
 pub(crate) use mesh::write_mesh;

@@ -11,8 +11,7 @@ use landform_view::montage::{MontageOptions, Panel, Row, panels};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::field_file;
-use super::look::{Look, picture_text, problem, write_picture};
+use super::look::{Look, Subject, picture_text, problem, write_picture};
 
 /// One figure of panels side by side: a field before the first iteration and at the end of each
 /// stage, all in the same colours.
@@ -55,7 +54,8 @@ impl Output for Panels {
     const NAME: &'static str = "Panels";
 
     fn fields(&self) -> Vec<String> {
-        (0..self.looks.len()).map(|look| self.field_of(look).to_owned()).collect()
+        let of = |(index, look): (usize, &Look)| look.fields(self.field_of(index));
+        self.looks.iter().enumerate().flat_map(of).collect()
     }
 
     fn file(&self) -> Option<&Path> {
@@ -84,7 +84,7 @@ impl Panels {
 }
 
 /// A state of the run: its name and what each look draws of it.
-type State = (String, Vec<Vec<f64>>);
+type State = (String, Vec<Subject>);
 
 /// The states seen so far; they are drawn together because they may share colours.
 struct PanelSink {
@@ -103,14 +103,15 @@ impl Sink for PanelSink {
             Moment::Start if !self.settings.initial_state => Ok(Vec::new()),
             Moment::Start | Moment::StageEnd => {
                 let looks = 0..self.settings.looks.len();
-                let values = looks.map(|look| {
-                    field_file::values(snapshot, self.settings.field_of(look)).map(|found| found.0)
+                let subjects = looks.map(|look| {
+                    let field = self.settings.field_of(look);
+                    Subject::of(snapshot, field, &self.settings.looks[look])
                 });
                 let name = match moment {
                     Moment::Start => "initial",
                     _ => snapshot.stage_name(),
                 };
-                self.states.push((name.to_owned(), values.collect::<Result<_, _>>()?));
+                self.states.push((name.to_owned(), subjects.collect::<Result<_, _>>()?));
                 Ok(Vec::new())
             }
             Moment::Iteration => Ok(Vec::new()),
@@ -122,8 +123,11 @@ impl Sink for PanelSink {
         let names: Vec<&String> = self.states.iter().map(|(name, _)| name).collect();
         to.value("names", &names);
         for (index, (_, looks)) in self.states.iter().enumerate() {
-            for (look, values) in looks.iter().enumerate() {
-                to.array(&array_name(index, look), values);
+            for (look, subject) in looks.iter().enumerate() {
+                to.array(&array_name(index, look), &subject.values);
+                if let Some(depths) = &subject.water {
+                    to.array(&water_name(index, look), depths);
+                }
             }
         }
         Ok(())
@@ -136,12 +140,10 @@ impl Sink for PanelSink {
         _: &Path,
     ) -> Result<(), Damage> {
         let names: Vec<String> = from.value("names")?;
-        let nodes = snapshot.lattice().node_count();
         let state = |(index, name): (usize, String)| {
             let looks = 0..self.settings.looks.len();
-            let values =
-                looks.map(|look| Ok(from.array_of(&array_name(index, look), nodes)?.to_vec()));
-            Ok((name, values.collect::<Result<_, Damage>>()?))
+            let subjects = looks.map(|look| self.stored(from, snapshot, [index, look]));
+            Ok((name, subjects.collect::<Result<_, Damage>>()?))
         };
         self.states = names.into_iter().enumerate().map(state).collect::<Result<_, _>>()?;
         Ok(())
@@ -153,7 +155,30 @@ fn array_name(state: usize, look: usize) -> String {
     format!("{state}-{look}")
 }
 
+/// Name of the depths of water of a state and a look in checkpoints.
+fn water_name(state: usize, look: usize) -> String {
+    format!("{state}-{look}-water")
+}
+
 impl PanelSink {
+    /// What a look draws of a state, from a checkpoint.
+    fn stored(
+        &self,
+        from: &Loader<'_>,
+        snapshot: &Snapshot<'_>,
+        [state, look]: [usize; 2],
+    ) -> Result<Subject, Damage> {
+        let nodes = snapshot.lattice().node_count();
+        let array = |name: String| from.array_of(&name, nodes).map(<[f64]>::to_vec);
+        let water = self.settings.looks[look].water();
+        let field = self.settings.field_of(look);
+        Ok(Subject {
+            values: array(array_name(state, look))?,
+            water: water.map(|_| array(water_name(state, look))).transpose()?,
+            unit: snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into()),
+        })
+    }
+
     fn draw(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {
         let settings = &self.settings;
         let mut drawn = Vec::new();
@@ -173,16 +198,15 @@ impl PanelSink {
     fn panel(
         &self,
         snapshot: &Snapshot<'_>,
-        (name, values): &State,
+        (name, subjects): &State,
         look: usize,
         index: usize,
     ) -> Result<Panel, Problem> {
         let settings = &self.settings;
-        let (_, entry) = field_file::values(snapshot, settings.field_of(look))?;
-        let (values, drawn) = (&values[look], self.with_shared_colours(look));
-        let image = drawn.draw(snapshot.lattice(), values, entry.unit);
+        let (subject, drawn) = (&subjects[look], self.with_shared_colours(look));
+        let image = drawn.draw(snapshot.lattice(), subject);
         let mut caption = settings.captions.get(index).unwrap_or(name).clone();
-        if let Some(numbers) = drawn.numbers(snapshot.lattice(), values) {
+        if let Some(numbers) = drawn.numbers(snapshot.lattice(), &subject.values) {
             caption += &format!(": {numbers}");
         }
         Ok(Panel { image: image.map_err(|error| problem(&error))?, caption })
@@ -193,7 +217,7 @@ impl PanelSink {
         let chosen = &self.settings.looks[look];
         match (self.settings.same_colours, chosen.range(), self.states.last()) {
             (true, None, Some((_, last))) => {
-                let [low, high] = landform_view::flat::finite_range(&last[look]);
+                let [low, high] = landform_view::flat::finite_range(&last[look].values);
                 chosen.clone().with_range((low, high))
             }
             _ => chosen.clone(),

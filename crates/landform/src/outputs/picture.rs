@@ -9,8 +9,7 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::field_file;
-use super::look::{Look, picture_text, problem, write_picture};
+use super::look::{Look, Subject, picture_text, problem, write_picture};
 
 /// A picture of a field as PNG, with title, scale and seed in its text entries.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -47,7 +46,7 @@ impl FileOutput for Picture {
     }
 
     fn fields(&self) -> Vec<String> {
-        vec![self.field.clone()]
+        self.look.fields(&self.field)
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -55,8 +54,8 @@ impl FileOutput for Picture {
     }
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
-        let (values, entry) = field_file::values(snapshot, &self.field)?;
-        let image = self.look.draw(snapshot.lattice(), &values, entry.unit);
+        let subject = Subject::of(snapshot, &self.field, &self.look)?;
+        let image = self.look.draw(snapshot.lattice(), &subject);
         let text = picture_text(snapshot, &self.field);
         write_picture(&image.map_err(|error| problem(&error))?, path, &text)
     }

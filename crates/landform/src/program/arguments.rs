@@ -307,6 +307,9 @@ pub(crate) struct ViewArguments {
     /// Elevation of a water surface in metres
     #[arg(long)]
     pub water: Option<f64>,
+    /// Name of the field of water depths that is drawn over the heights (`water`)
+    #[arg(long)]
+    pub depths: Option<String>,
     /// Replace the picture if it is there
     #[arg(long)]
     pub force: bool,

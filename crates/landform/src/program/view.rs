@@ -5,7 +5,7 @@ use landform_io::{RasterFile, ReadLimits, read_raster_file};
 
 use super::arguments::{LookName, ViewArguments};
 use super::{Failure, Outcome, export, talk};
-use crate::outputs::{Flat, Look, Perspective, Relief};
+use crate::outputs::{Flat, Look, Perspective, Relief, Subject, WaterDepths};
 
 /// Draws the source of the arguments.
 pub(super) fn view(arguments: &ViewArguments) -> Outcome {
@@ -33,8 +33,10 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     )
     .map_err(|error| Failure::Refused(error.to_string()))?;
     let unit = file.metadata.unit.as_deref().unwrap_or("m");
+    let water = water(arguments).map_err(Failure::Refused)?;
+    let subject = Subject { values: raster.values.clone(), water, unit: unit.to_owned() };
     let image = look(arguments)
-        .draw(&lattice, &raster.values, unit)
+        .draw(&lattice, &subject)
         .map_err(|error| Failure::Refused(error.to_string()))?;
     let text = file.metadata.entries();
     let text: Vec<_> = text.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
@@ -52,7 +54,18 @@ fn source(arguments: &ViewArguments) -> Result<RasterFile, String> {
     }
 }
 
+/// Depths of water in the folder of a run, if they are asked for.
+fn water(arguments: &ViewArguments) -> Result<Option<Vec<f64>>, String> {
+    let Some(field) = &arguments.depths else { return Ok(None) };
+    if !arguments.source.is_dir() {
+        return Err("--depths names a field of a run; give the run's output folder".to_owned());
+    }
+    export::field_of(&arguments.source, field).map(|file| Some(file.raster.values))
+}
+
 fn look(arguments: &ViewArguments) -> Look {
+    let depths = arguments.depths.as_ref();
+    let water = depths.map(|field| WaterDepths { field: field.clone(), ..WaterDepths::default() });
     let colours = |default: String| arguments.colours.clone().unwrap_or(default);
     match arguments.look {
         LookName::Relief => {
@@ -61,6 +74,7 @@ fn look(arguments: &ViewArguments) -> Look {
                 colours: colours(plain.colours),
                 vertical_exaggeration: arguments.exaggeration.unwrap_or(1.0),
                 water_level_m: arguments.water,
+                water,
                 ..Relief::default()
             })
         }
@@ -73,6 +87,7 @@ fn look(arguments: &ViewArguments) -> Look {
                 zoom: arguments.zoom.unwrap_or(plain.zoom),
                 vertical_exaggeration: arguments.exaggeration.unwrap_or(1.0),
                 water_level_m: arguments.water,
+                water,
                 ..plain
             })
         }

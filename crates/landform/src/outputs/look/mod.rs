@@ -5,13 +5,16 @@ mod flat;
 mod hypsometry;
 mod perspective;
 mod relief;
+mod subject;
 mod text;
 
 pub use flat::{Density, DensityAxes, Flat};
 pub use hypsometry::Curve;
 pub use perspective::Perspective;
 pub use relief::Relief;
+pub use subject::WaterDepths;
 
+pub(crate) use subject::Subject;
 pub(crate) use text::{picture_text, problem, write_picture};
 
 use landform_graph::Lattice;
@@ -42,20 +45,12 @@ impl Default for Look {
     }
 }
 
-/// Thickness of water in metres below which the ground shows through.
-pub(super) const CLEAR_WATER_M: f64 = 10.0;
-
 impl Look {
-    /// Draws a field of `lattice`, whose values are in `unit`.
-    pub(crate) fn draw(
-        &self,
-        lattice: &Lattice,
-        values: &[f64],
-        unit: &str,
-    ) -> Result<Image, ViewError> {
+    /// Draws what it shows of a field of `lattice`.
+    pub(crate) fn draw(&self, lattice: &Lattice, subject: &Subject) -> Result<Image, ViewError> {
         let size = [lattice.width(), lattice.height()];
         let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
-        self.picture(size, lattice.spacing(), periodic, values, unit)
+        self.picture(size, lattice.spacing(), periodic, subject)
     }
 
     fn picture(
@@ -63,19 +58,37 @@ impl Look {
         [width, height]: [usize; 2],
         spacing_m: f64,
         periodic: bool,
-        values: &[f64],
-        unit: &str,
+        subject: &Subject,
     ) -> Result<Image, ViewError> {
-        let heights = || HeightField::new(width, height, spacing_m, values);
+        let values = &subject.values;
+        let heights = || {
+            let bare = HeightField::new(width, height, spacing_m, values)?;
+            subject.water.as_deref().map_or(Ok(bare), |depths| bare.with_water(depths))
+        };
         match self {
             Self::Relief(relief) => shaded_relief(&heights()?, &relief.options(periodic)?),
             Self::Perspective(view) => {
                 landform_view::perspective::render(&heights()?, &view.options()?)
             }
-            Self::Flat(flat) => flat.draw(values, width, height, unit),
+            Self::Flat(flat) => flat.draw(values, width, height, &subject.unit),
             Self::Spectrum(density) => density.draw(values, [width, height]),
             Self::Hypsometry(curve) => curve.draw(values),
         }
+    }
+
+    /// The field of water depths that it draws over heights.
+    pub(crate) fn water(&self) -> Option<&WaterDepths> {
+        match self {
+            Self::Relief(relief) => relief.water.as_ref(),
+            Self::Perspective(view) => view.water.as_ref(),
+            Self::Flat(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
+        }
+    }
+
+    /// Names of the fields that it draws when it shows `field`.
+    pub(crate) fn fields(&self, field: &str) -> Vec<String> {
+        let water = self.water().map(|water| water.field.clone());
+        [field.to_owned()].into_iter().chain(water).collect()
     }
 
     /// What the picture says in numbers, for looks that measure: RMS and R2 of a spectrum, as
@@ -120,7 +133,9 @@ impl Look {
         if let Self::Perspective(view) = &mut small {
             view.size = (SIDE, SIDE);
         }
-        small.picture([SIDE, SIDE], 1.0, false, &[0.0; SIDE * SIDE], "")
+        let flat = vec![0.0; SIDE * SIDE];
+        let subject = Subject { water: Some(flat.clone()), values: flat, unit: String::new() };
+        small.picture([SIDE, SIDE], 1.0, false, &subject)
     }
 
     /// The values of the first and the last colour, when they are given.

@@ -1,11 +1,12 @@
 //! A view from a camera.
 
+use landform_view::ViewError;
 use landform_view::perspective::{PerspectiveOptions, Surroundings};
-use landform_view::{ViewError, Water};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CLEAR_WATER_M, ground};
+use super::ground;
+use super::subject::{WaterDepths, water_of};
 
 /// A view from a camera that frames the whole field.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -51,6 +52,8 @@ pub struct Perspective {
     /// Elevation of a water surface; none when missing.
     #[schemars(extend("x-unit" = "m"))]
     pub water_level_m: Option<f64>,
+    /// Water of a field of depths over the heights; none when missing.
+    pub water: Option<WaterDepths>,
 }
 
 impl Default for Perspective {
@@ -70,6 +73,7 @@ impl Default for Perspective {
             repeat: false,
             haze: 0.12,
             water_level_m: None,
+            water: None,
         }
     }
 }
@@ -87,7 +91,7 @@ impl Perspective {
         options.light.bearing_deg = self.sun_bearing_deg;
         options.light.altitude_deg = self.sun_altitude_deg;
         options.haze = self.haze;
-        options.water = self.water_level_m.map(|level| Water::at(level, CLEAR_WATER_M));
+        options.water = water_of(self.water_level_m, self.water.as_ref());
         if self.repeat {
             options.surroundings = Surroundings::Repeat;
         }

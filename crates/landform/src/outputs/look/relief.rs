@@ -1,11 +1,12 @@
 //! A map of heights under sun and sky.
 
+use landform_view::ViewError;
 use landform_view::relief::ReliefOptions;
-use landform_view::{ViewError, Water};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CLEAR_WATER_M, ground};
+use super::ground;
+use super::subject::{WaterDepths, water_of};
 
 /// A map of heights under sun and sky, with cast shadows.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -34,6 +35,8 @@ pub struct Relief {
     /// Elevation of a water surface; none when missing.
     #[schemars(extend("x-unit" = "m"))]
     pub water_level_m: Option<f64>,
+    /// Water of a field of depths over the heights; none when missing.
+    pub water: Option<WaterDepths>,
 }
 
 impl Default for Relief {
@@ -47,6 +50,7 @@ impl Default for Relief {
             sun_bearing_deg: 315.0,
             sun_altitude_deg: 40.0,
             water_level_m: None,
+            water: None,
         }
     }
 }
@@ -59,7 +63,7 @@ impl Relief {
         options.pixels_per_node = self.pixels_per_node;
         options.light.bearing_deg = self.sun_bearing_deg;
         options.light.altitude_deg = self.sun_altitude_deg;
-        options.water = self.water_level_m.map(|level| Water::at(level, CLEAR_WATER_M));
+        options.water = water_of(self.water_level_m, self.water.as_ref());
         options.periodic = periodic;
         Ok(options)
     }

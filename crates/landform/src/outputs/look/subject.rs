@@ -1,0 +1,64 @@
+//! What pictures show: a field, and the water over it.
+
+use landform_sim::parameters::Problem;
+use landform_sim::snapshot::Snapshot;
+use landform_view::Water;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Look;
+use crate::outputs::field_file;
+
+/// Water of a field of depths, drawn as a surface over the heights (thesis, section A.2).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct WaterDepths {
+    /// Name of the field of depths in metres. The heights that are drawn are those below it.
+    pub field: String,
+    /// Shallower water is not drawn: about the depth of the smallest channel.
+    #[schemars(range(min = 1e-6, max = 1e6), extend("x-unit" = "m"))]
+    pub least_m: f64,
+    /// Depth at which two thirds of the ground's colour are gone.
+    #[schemars(range(min = 1e-6, max = 1e6), extend("x-unit" = "m"))]
+    pub clear_m: f64,
+}
+
+impl Default for WaterDepths {
+    fn default() -> Self {
+        Self { field: "water".to_owned(), least_m: 0.1, clear_m: 2.0 }
+    }
+}
+
+/// The water of a look: at a level, of depths, or both.
+pub(super) fn water_of(level_m: Option<f64>, depths: Option<&WaterDepths>) -> Option<Water> {
+    /// Thickness of a sea below which the ground shows through.
+    const CLEAR_SEA_M: f64 = 10.0;
+    match (level_m, depths) {
+        (level_m, Some(depths)) => {
+            Some(Water { level_m, least_m: depths.least_m, ..Water::new(depths.clear_m) })
+        }
+        (Some(level_m), None) => Some(Water::at(level_m, CLEAR_SEA_M)),
+        (None, None) => None,
+    }
+}
+
+/// The values that a look draws.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Subject {
+    /// One value a node.
+    pub values: Vec<f64>,
+    /// Depths of the water over them, for looks that draw it.
+    pub water: Option<Vec<f64>>,
+    /// Unit of the values.
+    pub unit: String,
+}
+
+impl Subject {
+    /// What a look of a field draws of the present state of a run.
+    pub fn of(snapshot: &Snapshot<'_>, field: &str, look: &Look) -> Result<Self, Problem> {
+        let (values, entry) = field_file::values(snapshot, field)?;
+        let depths = look.water().map(|water| field_file::values(snapshot, &water.field));
+        let water = depths.transpose()?.map(|(depths, _)| depths);
+        Ok(Self { values, water, unit: entry.unit.to_owned() })
+    }
+}
