@@ -80,33 +80,59 @@ impl Water {
         Surface::sample_above(&raised, field.range()[0], sampling).map(Some)
     }
 
-    /// Height of the water at each node; below the ground at dry ones, so that the shore lies
-    /// where both surfaces meet.
+    /// Height of the water at each node. Beside the water it goes on below the ground, so that
+    /// the shore lies where both surfaces meet; elsewhere it is so far below that splines which
+    /// swing beside a cliff do not lift it above the ground.
     fn levels(&self, field: &HeightField<'_>, depths: &[f64], periodic: bool) -> Vec<f64> {
+        /// Nodes by which levels go on.
+        const RINGS: usize = 2;
+        /// Share of the relief nearby by which splines may swing.
+        const SWING: f64 = 0.35;
         let (heights, sea) = (field.heights(), self.level_m.unwrap_or(f64::NEG_INFINITY));
+        let size = [field.width(), field.height()];
+        let nodes = || (0..heights.len()).into_par_iter();
         let wet = |node: usize| {
             let own = if depths[node] >= self.least_m { depths[node] } else { 0.0 };
             let level = sea.max(heights[node] + own);
             (level > heights[node]).then_some(level)
         };
-        let (width, height) = (field.width(), field.height());
-        let node_at = |column: isize, row: isize| {
-            bound(column, width, periodic) + width * bound(row, height, periodic)
-        };
-        let level = |node: usize| {
-            let (column, row) = ((node % width) as isize, (node / width) as isize);
-            let around = (0..9).map(|step| node_at(column + step % 3 - 1, row + step / 3 - 1));
-            wet(node).unwrap_or_else(|| {
-                let (sum, count) = around
-                    .filter_map(wet)
+        let mut known: Vec<Option<f64>> = nodes().map(wet).collect();
+        for _ in 0..RINGS {
+            let beside = |node: usize| {
+                let (sum, count) = around(node, size, 1, periodic)
+                    .filter_map(|near| known[near])
                     .fold((0.0, 0.0), |(sum, count), level| (sum + level, count + 1.0));
                 // Water that flows past, above this ground, does not lie on it.
-                let below = heights[node] - self.least_m;
-                if count > 0.0 { below.min(sum / count) } else { below }
-            })
+                (count > 0.0 && sum / count < heights[node]).then(|| sum / count)
+            };
+            known = nodes().map(|node| known[node].or_else(|| beside(node))).collect();
+        }
+        let below = |node: usize| {
+            let bounds = around(node, size, 2, periodic)
+                .flat_map(|near| [heights[near], known[near].unwrap_or(heights[near])]);
+            let [low, high] = bounds.fold([heights[node]; 2], |[low, high], height| {
+                [low.min(height), high.max(height)]
+            });
+            heights[node] - self.least_m.max(SWING * (high - low))
         };
-        (0..heights.len()).into_par_iter().map(level).collect()
+        nodes().map(|node| known[node].unwrap_or_else(|| below(node))).collect()
     }
+}
+
+/// The nodes up to `reach` columns and rows from a node, itself included; those beyond an open
+/// edge are those at the edge.
+fn around(
+    node: usize,
+    [width, height]: [usize; 2],
+    reach: isize,
+    periodic: bool,
+) -> impl Iterator<Item = usize> {
+    let (column, row) = ((node % width) as isize, (node / width) as isize);
+    (-reach..=reach).flat_map(move |down| {
+        (-reach..=reach).map(move |across| {
+            bound(column + across, width, periodic) + width * bound(row + down, height, periodic)
+        })
+    })
 }
 
 #[cfg(test)]
@@ -121,7 +147,9 @@ mod tests {
         let depths: Vec<f64> = heights.iter().map(|height| (1.0 - height).max(0.0)).collect();
         let field = HeightField::new(9, 4, 1.0, &heights).unwrap().with_water(&depths).unwrap();
         let levels = Water::new(1.0).levels(&field, &depths, false);
-        assert_eq!(levels[..9], [1.9, 1.9, 1.9, 1.0, 1.0, 1.0, 1.9, 1.9, 1.9]);
+        // Two metres of relief may swing by 0.7.
+        let far = 2.0 - 0.35 * 1.0;
+        assert_eq!(levels[..9], [far, far, 1.0, 1.0, 1.0, 1.0, 1.0, far, far]);
         // A film below the least depth is not drawn.
         let film = Water { least_m: 1.5, ..Water::new(1.0) }.levels(&field, &depths, false);
         assert!(film.iter().zip(&heights).all(|(level, height)| level < height));

@@ -280,3 +280,40 @@ fn extreme_options_come_to_an_end() {
         }
     }
 }
+
+fn is_blue([red, _, blue]: [u8; 3]) -> bool {
+    blue > red.saturating_add(12)
+}
+
+/// A ditch that runs down a slope of one in five, full to half its depth.
+#[test]
+fn rivers_run_down_slopes_between_their_banks() {
+    let (width, height) = (60, 40);
+    let ditch = |x: f64| (1.0 - (x - 30.0).abs() / 6.0).max(0.0);
+    let bed = heights(width, height, |x, y| -0.2 * y - 4.0 * ditch(x));
+    let depths = heights(width, height, |x, _| (4.0 * ditch(x) - 2.0).max(0.0));
+    let dry = HeightField::new(width, height, 1.0, &bed).unwrap();
+    let wet = dry.with_water(&depths).unwrap();
+    let mut relief = ReliefOptions::new(ground("sand"));
+    relief.water = Some(Water::new(0.3));
+    let map = shaded_relief(&wet, &relief).unwrap();
+    for row in 2..height - 2 {
+        let blue: Vec<usize> =
+            (0..width).filter(|&column| is_blue(map.pixel(column, row))).collect();
+        assert_eq!((blue.first(), blue.last()), (Some(&28), Some(&32)), "row {row}");
+    }
+    let plain = ReliefOptions { water: None, ..relief.clone() };
+    assert_eq!(shaded_relief(&dry, &relief).unwrap(), shaded_relief(&dry, &plain).unwrap());
+    // A camera above sees nothing but the river change, in a strip down its middle.
+    let mut view = PerspectiveOptions::new(ground("sand"));
+    (view.size, view.pitch_deg, view.bearing_deg, view.haze) = ([300, 200], 90.0, 0.0, 0.0);
+    view.water = Some(Water::new(0.3));
+    let [image, bare] = [wet, dry].map(|field| render(&field, &view).unwrap());
+    for row in [70, 100, 130] {
+        let changed = |column: &usize| image.pixel(*column, row) != bare.pixel(*column, row);
+        let strip: Vec<usize> = (0..300).filter(changed).collect();
+        assert!(is_blue(image.pixel(150, row)), "row {row}");
+        assert!((10..40).contains(&strip.len()), "row {row}: {strip:?}");
+        assert!(strip[0] > 130 && strip[strip.len() - 1] < 170, "row {row}: {strip:?}");
+    }
+}
