@@ -139,7 +139,7 @@ impl Fronts {
         let events = self.coast.step(fields.land, fields.resistance, initial)?.clone();
         tell(&self.coast, &events);
         self.pass(&events, fields);
-        if events.eroded.is_empty() {
+        if events.eroded.is_empty() && !self.coast.nodes().is_empty() {
             self.record.pressure *= 1.0 + self.settings.raise;
             self.coast.press(self.record.pressure);
         }
@@ -209,40 +209,10 @@ impl Fronts {
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::Terrain;
     use super::*;
     use crate::coast::Perimeter;
     use landform_graph::{Boundary, Connectivity};
-
-    struct Terrain {
-        land: Vec<u8>,
-        resistance: Vec<f64>,
-        band: Vec<u32>,
-        on_level: Vec<u8>,
-    }
-
-    impl Terrain {
-        /// Land round one point of sea.
-        fn new(lattice: &Lattice) -> Self {
-            let nodes = lattice.node_count();
-            let centre = lattice.node([lattice.width() / 2, lattice.height() / 2, 0]);
-            let mut state = 5_u64;
-            let mut random = || {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / 2_f64.powi(53)
-            };
-            Self {
-                land: (0..nodes).map(|node| u8::from(node != centre)).collect(),
-                resistance: (0..nodes).map(|_| random()).collect(),
-                band: vec![0; nodes],
-                on_level: vec![0; nodes],
-            }
-        }
-
-        fn fields(&mut self) -> FrontFields<'_> {
-            let Self { land, resistance, band, on_level } = self;
-            FrontFields { land, resistance, band, on_level }
-        }
-    }
 
     fn lattice() -> Lattice {
         Lattice::plane([60, 50], 10.0, Connectivity::FourEight, [Boundary::Open; 2]).unwrap()
@@ -256,7 +226,7 @@ mod tests {
     #[test]
     fn fronts_pass_all_land_and_level_sets_lie_round_each_other() {
         let lattice = lattice();
-        let mut terrain = Terrain::new(&lattice);
+        let mut terrain = Terrain::new(&lattice, 5);
         let settings = FrontSettings { threshold: 4, raise: 0.05 };
         let mut fronts = Fronts::new(&lattice, coast(), settings, &mut terrain.fields()).unwrap();
         let mut iterations = 0;
@@ -290,7 +260,7 @@ mod tests {
 
     fn go_on_alike(coast: CoastSettings) {
         let lattice = lattice();
-        let mut terrain = Terrain::new(&lattice);
+        let mut terrain = Terrain::new(&lattice, 5);
         let settings = FrontSettings { threshold: 5, raise: 0.02 };
         let mut fronts =
             Fronts::new(&lattice, coast.clone(), settings, &mut terrain.fields()).unwrap();
@@ -309,7 +279,7 @@ mod tests {
                 break;
             }
         }
-        let mut straight = Terrain::new(&lattice);
+        let mut straight = Terrain::new(&lattice, 5);
         let mut fronts =
             Fronts::new(&lattice, coast.clone(), settings, &mut straight.fields()).unwrap();
         while fronts.step(&mut straight.fields(), |_, _| {}).unwrap() {}

@@ -3,7 +3,7 @@
 use landform_graph::Lattice;
 
 use super::distance::{Nearest, Side};
-use super::{LevelSets, LevelSetsError};
+use super::{Course, LevelSets, LevelSetsError};
 
 /// Height of a summit above the highest level set round it, at most, in intervals.
 const SUMMIT: f64 = 0.75;
@@ -47,7 +47,7 @@ pub fn hermite(lattice: &Lattice, levels: &LevelSets<'_>) -> Result<Vec<f64>, Le
             false => dome(levels.interval_m, to_below, summits[node], foot),
         };
         // Rounding must not take a node over a level set.
-        let [low, high] = levels.range_m(node);
+        let [low, high] = levels.range_m(node, Course::Through);
         (base + rise).clamp(low, high)
     };
     Ok((0..lattice.node_count()).map(height).collect())
@@ -151,7 +151,7 @@ mod tests {
             let heights = hermite(&lattice, &levels).unwrap();
             let steps = terraces(&lattice, &levels).unwrap();
             for node in 0..lattice.node_count() {
-                let [low, high] = levels.range_m(node);
+                let [low, high] = levels.range_m(node, Course::Through);
                 assert!(
                     (low..=high).contains(&heights[node]),
                     "{} of {low}..{high}",

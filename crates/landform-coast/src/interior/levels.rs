@@ -66,6 +66,17 @@ pub struct LevelSets<'a> {
     pub interval_m: f64,
 }
 
+/// Where level sets run, seen from the nodes that lie on them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Course {
+    /// Through these nodes, which have the height of the level set (thesis, listing 4.1, line 13).
+    #[default]
+    Through,
+    /// Right outside of them, as a shore does: they lie between this level set and the next, like
+    /// the nodes behind them. Level set 0, the sea, keeps its height.
+    Outside,
+}
+
 impl LevelSets<'_> {
     /// Checks that the fields belong to a 2-D lattice.
     pub(super) fn check(&self, lattice: &Lattice) -> Result<(), LevelSetsError> {
@@ -86,6 +97,15 @@ impl LevelSets<'_> {
         Ok(())
     }
 
+    /// Checks that there is one height for each node.
+    pub(super) fn check_heights(&self, heights: &[f64]) -> Result<(), LevelSetsError> {
+        let (expected, found) = (self.band.len(), heights.len());
+        if found != expected {
+            return Err(LevelSetsError::Length { field: "heights", expected, found });
+        }
+        Ok(())
+    }
+
     /// Rank of a node on its way up: level set 0, between, level set 1, between and so on.
     pub(super) fn rank(&self, node: usize) -> u64 {
         2 * u64::from(self.band[node]) + u64::from(self.on_level[node] == 0)
@@ -96,9 +116,14 @@ impl LevelSets<'_> {
         f64::from(self.band[node]) * self.interval_m
     }
 
+    /// Whether a node has the height of its level set.
+    pub(super) fn is_held(&self, node: usize, course: Course) -> bool {
+        self.on_level[node] > 0 && (course == Course::Through || self.band[node] == 0)
+    }
+
     /// Least and greatest height of a node: its level set, or the two round it.
-    pub(super) fn range_m(&self, node: usize) -> [f64; 2] {
-        let above = if self.on_level[node] > 0 { 0.0 } else { 1.0 };
+    pub(super) fn range_m(&self, node: usize, course: Course) -> [f64; 2] {
+        let above = if self.is_held(node, course) { 0.0 } else { 1.0 };
         let band = f64::from(self.band[node]);
         [band * self.interval_m, (band + above) * self.interval_m]
     }
@@ -112,4 +137,51 @@ impl LevelSets<'_> {
 pub fn terraces(lattice: &Lattice, levels: &LevelSets<'_>) -> Result<Vec<f64>, LevelSetsError> {
     levels.check(lattice)?;
     Ok((0..lattice.node_count()).map(|node| levels.base_m(node)).collect())
+}
+
+/// At how many nodes a surface (metres, one value a node) leaves the range between the level set
+/// below and the one above, so that level sets cross there: 0 for a good interpolant. Below level
+/// set 0 is the floor of the sea.
+///
+/// # Errors
+/// See [`LevelSetsError`].
+pub fn crossings(
+    lattice: &Lattice,
+    levels: &LevelSets<'_>,
+    course: Course,
+    heights: &[f64],
+) -> Result<usize, LevelSetsError> {
+    levels.check(lattice)?;
+    levels.check_heights(heights)?;
+    let crosses = |node: &usize| {
+        let [low, high] = levels.range_m(*node, course);
+        let low = if high > 0.0 { low } else { f64::NEG_INFINITY };
+        !(low..=high).contains(&heights[*node])
+    };
+    Ok((0..heights.len()).filter(crosses).count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::Cone;
+    use super::*;
+
+    #[test]
+    fn a_surface_crosses_where_it_leaves_its_range() {
+        let cone = Cone::new(41, 5);
+        let levels = cone.levels();
+        let mut heights = terraces(&cone.lattice, &levels).unwrap();
+        assert_eq!(crossings(&cone.lattice, &levels, Course::Through, &heights), Ok(0));
+        // The floor of the sea, a summit that is too high, a level set off its height.
+        let summit = 20 * 41 + 20;
+        let on_level = (0..41 * 41).find(|&n| levels.band[n] == 2 && levels.on_level[n] > 0);
+        heights[0] = -5.0;
+        heights[summit] += 10.1;
+        heights[on_level.unwrap()] += 0.1;
+        assert_eq!(crossings(&cone.lattice, &levels, Course::Through, &heights), Ok(2));
+        assert_eq!(crossings(&cone.lattice, &levels, Course::Outside, &heights), Ok(1));
+        heights[1] = f64::NAN;
+        assert_eq!(crossings(&cone.lattice, &levels, Course::Through, &heights), Ok(3));
+        assert!(crossings(&cone.lattice, &levels, Course::Through, &[]).is_err());
+    }
 }

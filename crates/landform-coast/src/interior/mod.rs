@@ -2,14 +2,14 @@
 //! figures 4.8 and 4.16).
 //!
 //! Former coastlines are level sets of a terrain: [`Fronts`] of erosion that move on into the land
-//! leave them behind. [`LevelSets`] says which nodes lie on them;
-//! three interpolants give heights to the others:
+//! leave them behind, as [`mod@reference`] tells it line by line. [`LevelSets`] says which nodes lie
+//! on them; three interpolants give heights to the others:
 //!
 //! | interpolant | surface |
 //! |---|---|
 //! | [`terraces`] | the lower of the two nearest level sets: flat steps |
 //! | [`hermite`] | cubic from level set to level set, with one slope at each |
-//! | [`relax_bending`] | the one of least bending energy |
+//! | [`relax_bending`] | the one of least bending energy, with level sets through or between nodes |
 //!
 //! In all three a node keeps between the level set below it and the one above it, so level sets
 //! never cross.
@@ -20,10 +20,16 @@ mod distance;
 mod fronts;
 mod hermite;
 mod levels;
+mod multigrid;
+mod plate;
+pub mod reference;
+mod sea_floor;
+mod sparse;
 #[cfg(test)]
 mod testing;
 
 pub use bending::{Relaxation, RelaxationLimits, bending_energy, relax_bending};
 pub use fronts::{FrontFields, FrontRecord, FrontSettings, Fronts};
 pub use hermite::hermite;
-pub use levels::{LevelSets, LevelSetsError, terraces};
+pub use levels::{Course, LevelSets, LevelSetsError, crossings, terraces};
+pub use sea_floor::{SeaFloor, lay_sea_floor};

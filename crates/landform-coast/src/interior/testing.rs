@@ -2,7 +2,9 @@
 
 use landform_graph::{Boundary, Connectivity, Lattice};
 
-use super::LevelSets;
+use landform_sim::random::RandomStream;
+
+use super::{FrontFields, LevelSets};
 
 /// Level sets of a cone: rings at equal distances.
 pub(super) struct Cone {
@@ -34,6 +36,45 @@ impl Cone {
 
     pub fn levels(&self) -> LevelSets<'_> {
         LevelSets { band: &self.band, on_level: &self.on_level, interval_m: 10.0 }
+    }
+}
+
+/// The fields of fronts on random rock, with discs of sea.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Terrain {
+    pub land: Vec<u8>,
+    resistance: Vec<f64>,
+    pub band: Vec<u32>,
+    pub on_level: Vec<u8>,
+}
+
+impl Terrain {
+    /// Up to three discs of sea, each of up to three spacings.
+    pub fn new(lattice: &Lattice, seed: u64) -> Self {
+        let random = RandomStream::new(seed, "terrain");
+        let nodes = lattice.node_count();
+        let middles = 1 + (3.0 * random.unit(0, 0, 0)) as u64;
+        let discs: Vec<_> = (1..=middles)
+            .map(|disc| {
+                let node = (nodes as f64 * random.unit(disc, 0, 0)) as usize;
+                (lattice.position(node), 3.0 * lattice.spacing() * random.unit(disc, 1, 0))
+            })
+            .collect();
+        let is_sea = |node: usize| {
+            let place = lattice.position(node);
+            discs.iter().any(|(middle, radius)| middle.distance(place) <= *radius)
+        };
+        Self {
+            land: (0..nodes).map(|node| u8::from(!is_sea(node))).collect(),
+            resistance: (0..nodes).map(|node| random.unit(9, node, 0)).collect(),
+            band: vec![7; nodes],
+            on_level: vec![7; nodes],
+        }
+    }
+
+    pub fn fields(&mut self) -> FrontFields<'_> {
+        let Self { land, resistance, band, on_level } = self;
+        FrontFields { land, resistance, band, on_level }
     }
 }
 

@@ -15,7 +15,7 @@ pub use erosion::{CoastErosion, CoastRecord};
 pub use groups::{
     CoastAgents, CoastMarks, CoastRegion, Eroded, Land, LevelSetNumber, OnLevelSet, Resistance,
 };
-pub use heights::{Interpolation, LevelSetHeights, RelaxationRecord};
+pub use heights::{HeightsRecord, Interpolation, LevelSetHeights};
 pub use image::{ImageCoastErosion, ImageCoastRecord};
 pub use image_device::CoastDevice;
 pub use interior::{InteriorRecord, IslandInterior};

@@ -15,6 +15,9 @@ pub enum LandShape {
     Disc,
     /// All land north of a strip of sea along the southern border.
     Strip,
+    /// Land everywhere but at one node in the middle of the map, from which fronts of
+    /// `IslandInterior` spread (thesis, figure 4.16).
+    Point,
 }
 
 /// Land of a simple shape in the sea: 1 on land, 0 at sea (thesis, section 4.2: a square).
@@ -42,7 +45,8 @@ impl InitialCondition for StartingLand {
         let [width, height, _] = lattice.size();
         let shorter = width.min(height) as f64;
         let margin = (self.margin * shorter).round().max(1.0) as usize;
-        if self.shape != LandShape::Strip && 2 * margin >= width.min(height) {
+        let has_margins = matches!(self.shape, LandShape::Square | LandShape::Disc);
+        if has_margins && 2 * margin >= width.min(height) {
             let message = format!("{margin} nodes of sea on both sides leave no land");
             return Err(Problem::new("margin", message, "less than half of the map"));
         }
@@ -60,6 +64,7 @@ impl InitialCondition for StartingLand {
                     x.hypot(y) < radius
                 }
                 LandShape::Strip => y + margin < height,
+                LandShape::Point => [x, y] != [width / 2, height / 2],
             }
         };
         Ok((0..lattice.node_count()).map(|node| f64::from(u8::from(is_land(node)))).collect())
