@@ -5,17 +5,23 @@
 //! 3724 s for the other one, on 256x256 nodes and a machine of 2006.
 //!
 //! - `whole`: force by the whole shore;
-//! - `near`, `contiguous`: by the shore within 20 and within 150 nodes;
-//! - the events of a run divide its time; against it stands the same number at 256x256, so that
-//!   the ratio is 1 where the cost of an event does not depend on the size;
+//! - `near`, `contiguous`: by the shore within 20 and within 150 nodes; `critical`: with a force so
+//!   little damped that the coast hardly comes to rest;
+//! - `an event`: iterations without the making of the coast, by the nodes that fall in them;
+//!   against it stands the same number at 256x256, so that the ratio is 1 where the cost of an
+//!   event does not depend on the size;
+//! - `made`: the making of the coast, by the nodes of the map;
 //! - `literal`: the reference, an iteration of 64x64 nodes against one of the fast coast.
+//!
+//! `--full` adds 4096x4096 nodes.
 
 mod measure;
 
+use cpu_time::ThreadTime;
 use landform::coast::coast::{Coast, CoastSettings, Perimeter, reference};
 use landform::graph::{Boundary, Connectivity, Lattice};
 use landform::sim::random::RandomStream;
-use measure::{Effort, Pair, pairs, table, time};
+use measure::{Effort, Pair, pairs, table};
 
 fn main() {
     table("Coasts", |effort| {
@@ -27,6 +33,7 @@ fn main() {
             ("near 150", 0.5, 0.2, near(150.0), "100 ms; 1000 ms at 1024x1024"),
             ("contiguous 20", 0.5, 0.25, contiguous(20.0), "150 ms; 2000 ms at 1024x1024"),
             ("contiguous 150", 0.5, 0.2, contiguous(150.0), "150 ms; 2000 ms at 1024x1024"),
+            ("critical 20", 0.5, 0.2, contiguous(20.0), "150 ms; 2000 ms at 1024x1024"),
         ] {
             let settings =
                 CoastSettings { force, attenuation, perimeter, ..CoastSettings::default() };
@@ -57,50 +64,71 @@ impl Island {
         }
     }
 
-    /// Erodes a copy until it rests, and gives the number of nodes that fell.
-    fn erode(&self, settings: &CoastSettings) -> usize {
+    /// Erodes a copy until it rests, or until many nodes have fallen.
+    fn erode(&self, settings: &CoastSettings) -> Run {
         let (mut land, mut rock) = (self.land.clone(), self.rock.clone());
+        let start = ThreadTime::now();
         let coast = Coast::new(&self.lattice, settings.clone(), &land, &rock);
         let mut coast = coast.expect("a coast");
         let initial = coast.shore().total();
+        let made_ns = start.elapsed().as_nanos() as f64;
         let mut events = 0;
-        loop {
+        while events < MOST_EVENTS {
             let fallen = coast.step(&mut land, &mut rock, initial).expect("a step").eroded.len();
             events += fallen;
             if fallen == 0 {
-                return events;
+                break;
             }
         }
+        Run { made_ns, all_ns: start.elapsed().as_nanos() as f64, events }
+    }
+}
+
+/// Events after which a run is long enough.
+const MOST_EVENTS: usize = 500_000;
+
+/// What a run took.
+struct Run {
+    made_ns: f64,
+    all_ns: f64,
+    events: usize,
+}
+
+impl Run {
+    /// Nanoseconds an event, without the making.
+    fn event_ns(&self) -> f64 {
+        (self.all_ns - self.made_ns) / self.events as f64
     }
 }
 
 fn runs(effort: Effort, name: &str, settings: &CoastSettings, reach: &str) {
     let sizes: &[usize] = match effort {
         Effort::Quick => &[256],
-        Effort::Normal => &[256, 1024],
-        Effort::Full => &[256, 1024, 4096],
+        Effort::Normal => &[256, 512, 1024, 2048],
+        Effort::Full => &[256, 512, 1024, 2048, 4096],
     };
     let small = Island::new(256);
     for &side in sizes {
         let island = Island::new(side);
-        let rounds = effort.rounds(5);
-        let mut nanoseconds: Vec<f64> = (0..rounds)
-            .map(|_| {
-                time(&mut || {
-                    island.erode(settings);
-                    1
-                })
-            })
-            .collect();
-        nanoseconds.sort_by(f64::total_cmp);
-        let whole = nanoseconds[rounds / 2];
+        let rounds = effort.rounds(if side > 1024 { 3 } else { 5 });
+        // The first round is for warming up.
+        let both = || [island.erode(settings), small.erode(settings)];
+        let runs: Vec<[Run; 2]> = (0..=rounds).map(|_| both()).skip(1).collect();
+        let median = |figure: &dyn Fn(&Run) -> f64| {
+            let mut figures: Vec<f64> = runs.iter().map(|[run, _]| figure(run)).collect();
+            figures.sort_by(f64::total_cmp);
+            figures[rounds / 2]
+        };
         println!(
-            "{:<50} {:>9.1} ms a run{:>45}  {reach}",
-            format!("{name}, {side}x{side}"),
-            whole / 1e6,
+            "{:<50} {:>9.1} ms a run; made in {:.1} ns a node {:>18}  {reach}",
+            format!("{name}, {side}x{side}, {} events", runs[0][0].events),
+            median(&|run| run.all_ns) / 1e6,
+            median(&|run| run.made_ns) / (side * side) as f64,
             ""
         );
-        let pair = pairs(rounds, || island.erode(settings), || small.erode(settings));
+        let events: Vec<[f64; 2]> =
+            runs.iter().map(|both| both.each_ref().map(Run::event_ns)).collect();
+        let pair = Pair::of(&events);
         pair.print(&format!("{name}, {side}x{side}: an event"), "an event at 256x256", "1 (flat)");
     }
 }

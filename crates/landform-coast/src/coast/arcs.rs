@@ -3,31 +3,13 @@
 use landform_graph::Lattice;
 
 use super::Shore;
-use super::compass::{SIDES, STEPS, diagonal, edges, left_of};
-use super::shore_lines::{Line, ShoreLines, side_of};
-use super::vicinity::Vicinity;
+use super::compass::{STEPS, diagonal, edges, left_of};
+use super::concerned::Concerned;
+use super::marks::Marks;
+use super::shore_lines::ShoreLines;
+use super::stretch::{NOWHERE, Stretch, stretch_of};
 
-/// Places or boxes that a box covers.
-const BRANCH: usize = 8;
-
-/// Least and greatest column and row of a stretch of shore.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    low: [i32; 2],
-    high: [i32; 2],
-}
-
-impl Extent {
-    fn around<'a>(parts: impl Iterator<Item = (&'a [i32; 2], &'a [i32; 2])>) -> Self {
-        let none = Self { low: [i32::MAX; 2], high: [i32::MIN; 2] };
-        parts.fold(none, |all, (low, high)| Self {
-            low: [all.low[0].min(low[0]), all.low[1].min(low[1])],
-            high: [all.high[0].max(high[0]), all.high[1].max(high[1])],
-        })
-    }
-}
-
-/// A disc around a node.
+/// A disc around a node, as a stretch of shore has its places.
 #[derive(Clone, Copy, Debug)]
 struct Disc {
     center: [i32; 2],
@@ -42,27 +24,43 @@ impl Disc {
     }
 
     #[inline]
-    fn contains_all(&self, extent: &Extent) -> bool {
+    fn contains_all(&self, stretch: &Stretch) -> bool {
         let farthest = |axis: usize| {
             let from = self.center[axis];
-            (from - extent.low[axis]).max(extent.high[axis] - from)
+            (from - stretch.low[axis]).max(stretch.high[axis] - from)
         };
         self.contains([self.center[0] + farthest(0), self.center[1] + farthest(1)])
     }
 
-    fn moved(self, by: [i32; 2]) -> Self {
-        Self { center: [self.center[0] + by[0], self.center[1] + by[1]], ..self }
+    fn moved(self, [x, y]: [i32; 2]) -> Self {
+        Self { center: [self.center[0] + x, self.center[1] + y], ..self }
     }
 }
 
-/// A run of places of a line that hang together: up to two ranges, for runs over the seam of a
-/// closed line.
+/// The places from which a node's search starts, and the steps to their land nodes.
 #[derive(Clone, Copy, Debug, Default)]
-struct Run([(usize, usize); 2]);
+struct Anchors {
+    count: usize,
+    places: [u32; 4],
+    steps: [[i32; 2]; 4],
+    /// Whether what hangs together with each of them is counted.
+    is_counted: [bool; 4],
+}
 
-impl Run {
-    fn contains(&self, place: usize) -> bool {
-        self.0.iter().any(|&(start, end)| (start..end).contains(&place))
+impl Anchors {
+    fn push(&mut self, place: u32, step: [isize; 2]) {
+        self.places[self.count] = place;
+        self.steps[self.count] = step.map(|along| along as i32);
+        self.count += 1;
+    }
+
+    /// Sides `from..to` of a stretch are counted.
+    #[inline]
+    fn count(&mut self, number: u32, from: usize, to: usize) {
+        for anchor in 0..self.count {
+            let (stretch, index) = stretch_of(self.places[anchor]);
+            self.is_counted[anchor] |= stretch == number && (from..to).contains(&index);
+        }
     }
 }
 
@@ -73,187 +71,193 @@ impl Run {
 /// disc around the node. What is found from several sides counts once. A node that meets the sea
 /// across a corner only starts from the shore at that corner.
 ///
-/// Boxes around 8, 64, 512, ... places let a search pass over all shore that surely stays in the
-/// disc: the cost of a search grows with the logarithm of what it finds.
+/// A search passes at once over each stretch of shore that surely stays in the disc.
 #[derive(Clone, Debug)]
 pub(super) struct Arcs {
     lines: ShoreLines,
     squared_radius: i64,
-    /// Where the latest refresh may have changed what is found.
-    changed: Vicinity,
-    /// Length in parts of the shore before each place.
-    before: Vec<u64>,
-    boxes: Vec<Vec<Extent>>,
+    /// Width of the squares in which nodes that fall together are one change.
+    square: usize,
+    concerned: Concerned,
+    /// Middles of the squares where nodes fell since the latest refresh.
+    fallen: Vec<[usize; 2]>,
+    /// Whether everything has changed since then.
+    all: bool,
 }
+
+/// How far a node that falls changes the shore: to the nodes around it.
+const AROUND: f64 = 1.5;
+
+/// Squares that a radius has room for, in which nodes that fall together are one change.
+const SQUARES: f64 = 12.0;
 
 impl Arcs {
     /// Searches within `radius` spacings.
     pub(super) fn new(lattice: &Lattice, radius: f64) -> Self {
+        let square = ((radius / SQUARES) as usize).max(1);
+        // From the middle of a square to its farthest node.
+        let away = (square / 2) as f64 * std::f64::consts::SQRT_2;
         Self {
-            lines: ShoreLines::new(lattice.node_count()),
+            lines: ShoreLines::default(),
             squared_radius: (radius * radius) as i64,
-            changed: Vicinity::everywhere(lattice, radius),
-            before: Vec::new(),
-            boxes: Vec::new(),
+            square,
+            concerned: Concerned::new(lattice, radius + AROUND + away),
+            fallen: Vec::new(),
+            all: true,
         }
     }
 
-    /// Makes the lines follow the shore; `coast` as for [`ShoreLines::trace`].
-    pub(super) fn refresh(&mut self, shore: &Shore, coast: &[u32]) {
-        self.changed.spread();
-        self.lines.trace(shore, coast);
-        let at = self.lines.at();
-        self.before.clear();
-        let mut sum = 0;
-        for place in 0..at.len() {
-            self.before.push(sum);
-            let side = self.lines.side(place);
-            let node = (side / 4) as usize;
-            sum += u64::from(shore.side_lengths(node, shore.place(node))[(side % 4) as usize]);
-        }
-        self.before.push(sum);
-        self.boxes.clear();
-        let places = |places: &[[i32; 2]]| Extent::around(places.iter().map(|at| (at, at)));
-        let mut boxes: Vec<Extent> = at.chunks_exact(BRANCH).map(places).collect();
-        let all = |all: &[Extent]| Extent::around(all.iter().map(|one| (&one.low, &one.high)));
-        while !boxes.is_empty() {
-            let above = boxes.chunks_exact(BRANCH).map(all).collect();
-            self.boxes.push(std::mem::replace(&mut boxes, above));
-        }
+    /// A coast node that may fall, or not, has a strength.
+    pub(super) fn strength(&mut self, at: [usize; 2], may_fall: bool) {
+        self.concerned.set(at, may_fall);
     }
 
-    /// Forgets where the shore changed before.
-    pub(super) fn forget_changes(&mut self) {
-        self.changed.clear();
-    }
-
-    /// The shore changes everywhere.
+    /// The force changes everywhere.
     pub(super) fn change_all(&mut self) {
-        self.changed.fill();
+        self.all = true;
     }
 
-    /// The shore at a place changes, or the strength of its node.
-    pub(super) fn change(&mut self, at: [usize; 2]) {
-        self.changed.change(at);
+    /// A coast node falls, whose sides had these places.
+    pub(super) fn fall(&mut self, at: [usize; 2], places: [u32; 4]) {
+        self.lines.cut(places);
+        self.concerned.set(at, false);
+        let size = self.concerned.size();
+        let middle = |axis: usize| at[axis] / self.square * self.square + self.square / 2;
+        let middle = [0, 1].map(|axis| middle(axis).min(size[axis] - 1));
+        self.fallen.push(middle);
     }
 
-    /// Whether the latest changes may concern the node at a place. A node that withstood the sea
-    /// before and is none of these withstands it again.
-    pub(super) fn may_differ(&self, at: [usize; 2]) -> bool {
-        self.changed.contains(at)
+    /// What lies around a land node changes.
+    pub(super) fn touch(&mut self, node: usize) {
+        self.lines.loosen(node);
+    }
+
+    /// Makes the lines follow the shore, and finds out which nodes that concerns.
+    pub(super) fn refresh(&mut self, shore: &Shore, marks: &mut Marks) {
+        self.lines.refresh(shore, marks);
+        // Only now it is known which nodes may fall.
+        self.fallen.sort_unstable();
+        self.fallen.dedup();
+        self.fallen.drain(..).for_each(|at| self.concerned.change(at));
+        if std::mem::take(&mut self.all) {
+            self.concerned.change_all();
+        }
+    }
+
+    /// Names the coast nodes that may fall and that the latest changes may concern.
+    pub(super) fn take_concerned(&mut self, visit: impl FnMut(usize)) {
+        self.concerned.take(visit);
     }
 
     /// Length in parts of the shore that hangs together with a coast node within the radius.
-    pub(super) fn length(&self, shore: &Shore, node: usize) -> u64 {
-        let mut runs = [Run::default(); 4];
+    pub(super) fn length(&self, shore: &Shore, marks: &Marks, node: usize) -> u64 {
+        let mut anchors = anchors(shore, marks, node);
         let mut length = 0;
-        let mut found = 0;
-        self.each_anchor(shore, node, |place, step| {
-            if runs[..found].iter().any(|run| run.contains(place)) {
-                return;
+        for anchor in 0..anchors.count {
+            if !anchors.is_counted[anchor] {
+                length += self.run(anchor, &mut anchors);
             }
-            let at = self.lines.at()[place];
-            let center = [at[0] - step[0] as i32, at[1] - step[1] as i32];
-            let disc = Disc { center, squared_radius: self.squared_radius };
-            let run = self.run(place, disc);
-            length += run.0.iter().map(|&(s, e)| self.before[e] - self.before[s]).sum::<u64>();
-            runs[found] = run;
-            found += 1;
-        });
+        }
         length
     }
 
-    /// Names the places from which a node's search starts, and the steps to their land nodes.
-    fn each_anchor(&self, shore: &Shore, node: usize, mut visit: impl FnMut(usize, [isize; 2])) {
-        let around = shore.around(node);
-        let is_sea = |direction: usize| around >> direction & 1 == 1;
-        if around & SIDES != 0 {
-            (0..4)
-                .filter(|&side| is_sea(side))
-                .for_each(|side| visit(self.lines.place(side_of(node, side)), [0, 0]));
-            return;
-        }
-        let at = shore.place(node);
-        let edges = edges(shore.lattice(), at);
-        for (side, step) in STEPS.into_iter().take(4).enumerate() {
-            let corner = diagonal(side);
-            if is_sea(corner) && edges >> corner & 1 == 1 {
-                let land = shore.lattice().offset([at[0], at[1], 0], [step[0], step[1], 0]);
-                if let Some(land) = land {
-                    visit(self.lines.place(side_of(land, left_of(side))), step);
-                }
+    /// Length of the shore around an anchor until it first leaves the disc, each way.
+    fn run(&self, anchor: usize, anchors: &mut Anchors) -> u64 {
+        let place = anchors.places[anchor];
+        let (number, index) = stretch_of(place);
+        let [x, y] = self.lines.stretch(number).at[index];
+        let [east, south] = anchors.steps[anchor];
+        let disc = Disc { center: [x - east, y - south], squared_radius: self.squared_radius };
+        anchors.count(number, index, index + 1);
+        let own = self.lines.stretch(number).length(index, index + 1);
+        let (forth, end) = self.forth(place, disc, anchors);
+        own + forth + self.back(place, end, disc, anchors)
+    }
+
+    /// Length from the side after a place on, and the place where that ends: of the first side
+    /// that is not in the disc, or of the beginning when the line comes back to it.
+    fn forth(&self, place: u32, mut disc: Disc, anchors: &mut Anchors) -> (u64, (u32, usize)) {
+        let (begin, index) = stretch_of(place);
+        let (mut number, mut from) = (begin, index + 1);
+        let mut is_back = false;
+        let mut length = 0;
+        loop {
+            let stretch = self.lines.stretch(number);
+            let to = if is_back { index } else { stretch.count };
+            let end = first_outside(stretch, from, to, disc);
+            length += stretch.length(from, end);
+            anchors.count(number, from, end);
+            if end < to || is_back || stretch.next == NOWHERE {
+                return (length, (number, end));
             }
+            disc = disc.moved(stretch.shift.map(|along| -along));
+            (number, from) = (stretch.next, 0);
+            is_back = number == begin;
         }
     }
 
-    /// The places around `place` until the line first leaves the disc, each way.
-    fn run(&self, place: usize, disc: Disc) -> Run {
-        let line = self.lines.line_of(place);
-        let Line { start, end, closed, winding } = line;
-        let high = self.first_outside(place + 1, end, disc);
-        let mut over_end = start;
-        if high == end && closed {
-            over_end = self.first_outside(start, place, disc.moved(winding.map(|by| -by)));
+    /// Length up to the side before a place, back to `end` at most, which was found the other way.
+    fn back(&self, place: u32, end: (u32, usize), mut disc: Disc, anchors: &mut Anchors) -> u64 {
+        let (mut number, mut to) = stretch_of(place);
+        let mut length = 0;
+        // The way forth may have ended behind the place, after all other stretches.
+        let mut is_met = end.0 == number && end.1 <= to;
+        loop {
+            let stretch = self.lines.stretch(number);
+            let from = if is_met { end.1 } else { 0 };
+            let begin = after_last_outside(stretch, from, to, disc);
+            length += stretch.length(begin, to);
+            anchors.count(number, begin, to);
+            if begin > from || is_met || stretch.previous == NOWHERE {
+                return length;
+            }
+            number = stretch.previous;
+            let stretch = self.lines.stretch(number);
+            disc = disc.moved(stretch.shift);
+            to = stretch.count;
+            is_met = number == end.0;
         }
-        let low = self.after_last_outside(start, place, disc);
-        let mut over_start = end;
-        if low == start && closed {
-            over_start = self.after_last_outside(place + 1, end, disc.moved(winding));
-        }
-        let count = (high - low) + (over_end - start) + (end - over_start);
-        if count >= end - start {
-            return Run([(start, end), (0, 0)]);
-        }
-        // Only one of both reaches over the seam: the whole line would be found otherwise.
-        let other = if over_end > start { (start, over_end) } else { (over_start, end) };
-        Run([(low, high), other])
     }
+}
 
-    /// The first place in `from..end` that is not in the disc; `end` when all are.
-    fn first_outside(&self, from: usize, end: usize, disc: Disc) -> usize {
-        let at = self.lines.at();
-        let mut place = from;
-        while place < end {
-            let mut passed = 0;
-            let mut size = BRANCH;
-            for boxes in &self.boxes {
-                let fits = place.is_multiple_of(size) && place + size <= end;
-                if !fits || !disc.contains_all(&boxes[place / size]) {
-                    break;
-                }
-                passed = size;
-                size *= BRANCH;
-            }
-            match passed {
-                0 if !disc.contains(at[place]) => return place,
-                0 => place += 1,
-                passed => place += passed,
-            }
-        }
-        end
+/// The first side in `from..to` that is not in the disc; `to` when all are.
+#[inline]
+fn first_outside(stretch: &Stretch, from: usize, to: usize, disc: Disc) -> usize {
+    if disc.contains_all(stretch) {
+        return to;
     }
+    (from..to).find(|&index| !disc.contains(stretch.at[index])).unwrap_or(to)
+}
 
-    /// The place after the last one in `start..end` that is not in the disc; `start` when all are.
-    fn after_last_outside(&self, start: usize, end: usize, disc: Disc) -> usize {
-        let at = self.lines.at();
-        let mut place = end;
-        while place > start {
-            let mut passed = 0;
-            let mut size = BRANCH;
-            for boxes in &self.boxes {
-                let fits = place.is_multiple_of(size) && place - start >= size;
-                if !fits || !disc.contains_all(&boxes[place / size - 1]) {
-                    break;
-                }
-                passed = size;
-                size *= BRANCH;
-            }
-            match passed {
-                0 if !disc.contains(at[place - 1]) => return place,
-                0 => place -= 1,
-                passed => place -= passed,
+/// The side after the last one in `from..to` that is not in the disc; `from` when all are.
+#[inline]
+fn after_last_outside(stretch: &Stretch, from: usize, to: usize, disc: Disc) -> usize {
+    if disc.contains_all(stretch) {
+        return from;
+    }
+    let last = (from..to).rev().find(|&index| !disc.contains(stretch.at[index]));
+    last.map_or(from, |index| index + 1)
+}
+
+/// Where the search of a node starts: at its own sides, or at those by its corners.
+fn anchors(shore: &Shore, marks: &Marks, node: usize) -> Anchors {
+    let mut anchors = Anchors::default();
+    let places = |node: usize| marks.slot(node).map_or([NOWHERE; 4], |slot| marks.places[slot]);
+    // Sides at sea have places.
+    let own = places(node).into_iter().filter(|&place| place != NOWHERE);
+    own.for_each(|place| anchors.push(place, [0, 0]));
+    if anchors.count > 0 {
+        return anchors;
+    }
+    let at = shore.place(node);
+    let corners = shore.around(node) & edges(shore.lattice(), at);
+    for (side, step) in STEPS.into_iter().take(4).enumerate() {
+        if corners >> diagonal(side) & 1 == 1 {
+            let land = shore.lattice().offset([at[0], at[1], 0], [step[0], step[1], 0]);
+            if let Some(land) = land {
+                anchors.push(places(land)[left_of(side)], step);
             }
         }
-        start
     }
+    anchors
 }

@@ -2,6 +2,7 @@
 
 use landform_graph::Lattice;
 
+use super::blocks::Blocks;
 use super::row_changes::RowChanges;
 
 /// The sum over a disc around each node of numbers that change here and there, beside a limit of
@@ -26,7 +27,7 @@ pub(super) struct DiscSums {
     /// Half of the width of the disc in each row, from its middle row on.
     half_widths: Vec<usize>,
     /// Sum over the disc around each node, less its limit.
-    margins: Vec<i32>,
+    margins: Blocks,
     changes: Vec<Change>,
     limited: Vec<u32>,
     row: RowChanges,
@@ -50,7 +51,7 @@ impl DiscSums {
             size,
             periodic: [0, 1].map(|axis| lattice.is_periodic(axis)),
             half_widths: (0..=rows).map(|row| half_width(radius, row)).collect(),
-            margins: vec![0; size[0] * size[1]],
+            margins: Blocks::new(size),
             changes: Vec::new(),
             limited: Vec::new(),
             row: RowChanges::new(size[0]),
@@ -85,7 +86,7 @@ impl DiscSums {
 
     /// Moves the limit of a node.
     pub(super) fn move_limit(&mut self, node: usize, by: i32) {
-        self.margins[node] -= by;
+        *self.margins.get_mut(node) -= by;
         self.limited.push(node as u32);
     }
 
@@ -111,14 +112,14 @@ impl DiscSums {
                 self.write(changes, self.half_widths[changes[0].y.abs_diff(y) as usize]);
             }
             let start = y as usize * self.size[0];
-            let row = &mut self.margins[start..start + self.size[0]];
-            self.row.apply(row, |x| self.below.push((start + x) as u32));
+            let mut row = self.margins.row(y as usize);
+            self.row.apply(&mut row, |x| self.below.push((start + x) as u32));
             y += 1;
         }
         changes.clear();
         self.changes = changes;
         let margins = &self.margins;
-        self.below.extend(self.limited.drain(..).filter(|&node| margins[node as usize] < 0));
+        self.below.extend(self.limited.drain(..).filter(|&node| margins.get(node as usize) < 0));
     }
 
     /// Writes changes at the nodes of a row, from west to east, into a row whose discs reach so
@@ -149,14 +150,14 @@ impl DiscSums {
     /// [`DiscSums::refresh`].
     #[inline]
     pub(super) fn margin(&self, node: usize) -> i32 {
-        self.margins[node]
+        self.margins.get(node)
     }
 
     /// Moves the nodes whose sums are below their limits since the latest call to `below`, some of
     /// them twice.
     pub(super) fn take_below(&mut self, below: &mut Vec<u32>) {
         let margins = &self.margins;
-        below.extend(self.below.drain(..).filter(|&node| margins[node as usize] < 0));
+        below.extend(self.below.drain(..).filter(|&node| margins.get(node as usize) < 0));
     }
 }
 

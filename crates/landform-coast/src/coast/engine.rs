@@ -32,8 +32,11 @@ pub struct Events {
 ///
 /// Everything here follows from settings, land and resistance: a coast made anew goes on alike.
 ///
-/// Memory: 8 bytes a node, 4 more for a perimeter within a radius, 16 for a contiguous one; and
-/// some 30 bytes a coast node.
+/// Memory: 8 bytes a node, 4 more for a perimeter within a radius, 2 bits for a contiguous one;
+/// and 40 bytes a coast node, some 90 for a contiguous perimeter.
+///
+/// Cost of an iteration: in proportion to the nodes that fall, and to the coast nodes within the
+/// radius around them; with wear, to all coast nodes.
 #[derive(Clone, Debug)]
 pub struct Coast {
     settings: CoastSettings,
@@ -95,19 +98,19 @@ impl Coast {
             if exposure.0 > 0 {
                 self.mark(node, resistance[node], exposure);
                 let length = i32::from(self.shore.length(node));
-                self.watch.touched(self.shore.place(node), length);
+                self.watch.touched(node, self.shore.place(node), length);
             }
         }
-        self.watch.refresh(&self.shore, &self.marks);
+        self.watch.refresh(&self.shore, &mut self.marks);
     }
 
     /// Gives a node of the coast the strength of its exposure: `true` when it is new there.
     fn mark(&mut self, node: usize, resistance: f64, exposure: (u32, u32)) -> bool {
         let strength = self.settings.weakening.strength(resistance, exposure);
-        let is_new = self.marks.set(node, strength);
+        let is_new = self.marks.set(node, resistance, strength);
         // Rock that wears changes everywhere: there is nothing to watch.
         if self.settings.wear.is_none() {
-            self.watch.strength(&self.sea, &mut self.marks, node);
+            self.watch.strength(&self.sea, &self.shore, &mut self.marks, node);
         }
         is_new
     }
@@ -144,8 +147,8 @@ impl Coast {
     /// Multiplies the force of the sea that the settings say, everywhere and from now on: to move
     /// a coast that is stuck (thesis, listing 4.1). 1 at the beginning.
     pub fn press(&mut self, pressure: f64) {
-        if pressure != self.sea.pressure {
-            self.sea.pressure = pressure;
+        let before = std::mem::replace(&mut self.sea.pressure, pressure);
+        if before != pressure && self.settings.wear.is_none() {
             self.watch.pressure(&self.sea, &self.shore, &mut self.marks);
         }
     }
@@ -202,8 +205,8 @@ impl Coast {
         self.events.eroded.sort_unstable();
         self.events.eroded.dedup();
         self.erode(land, resistance);
-        self.follow(land, resistance);
-        self.watch.refresh(&self.shore, &self.marks);
+        self.follow(resistance);
+        self.watch.refresh(&self.shore, &mut self.marks);
         &self.events
     }
 
@@ -229,11 +232,11 @@ impl Coast {
             let node = node as usize;
             land[node] = 0;
             resistance[node] = 0.0;
-            watch.fallen(node, marks.remove(node));
-            if shore.touch(node) {
-                touched.push(node as u32);
-            }
-            shore.surround(node, |other| touched.push(other as u32));
+            let (limit, places) = marks.remove(node);
+            watch.fallen(node, shore.place(node), shore.drown(node), limit, places);
+        }
+        for &node in &events.eroded {
+            shore.surround(node as usize, |other| touched.push(other as u32));
         }
         if disc.is_empty() {
             return;
@@ -254,20 +257,19 @@ impl Coast {
     }
 
     /// Brings marks, lengths and strengths up to date around what happened.
-    fn follow(&mut self, land: &[u8], resistance: &[f64]) {
+    fn follow(&mut self, resistance: &[f64]) {
         let mut touched = std::mem::take(&mut self.touched);
         for node in touched.drain(..) {
             let node = node as usize;
-            let is_land = land[node] > 0;
             let at = self.shore.place(node);
-            let change = self.shore.measure(node, at, is_land);
-            self.watch.touched(at, change);
-            if !is_land {
-                continue;
-            }
+            let change = self.shore.measure(node, at);
+            self.watch.touched(node, at, change);
             let exposure = self.shore.exposure_at(node, at);
             if exposure.0 > 0 {
-                let is_new = self.mark(node, resistance[node], exposure);
+                // Rock that does not wear is as the coast found it.
+                let slot = self.marks.slot(node).filter(|_| self.settings.wear.is_none());
+                let u = slot.map_or_else(|| resistance[node], |slot| self.marks.resistances[slot]);
+                let is_new = self.mark(node, u, exposure);
                 if is_new {
                     self.events.exposed.push(node as u32);
                 }

@@ -14,7 +14,9 @@
 #[cfg(test)]
 mod agreement;
 mod arcs;
+mod blocks;
 mod compass;
+mod concerned;
 mod disc_sums;
 mod engine;
 mod error;
@@ -27,9 +29,10 @@ mod sea;
 mod settings;
 mod shore;
 mod shore_lines;
+mod sides;
+mod stretch;
 #[cfg(test)]
 mod testing;
-mod vicinity;
 mod watch;
 mod weakest;
 mod wear;

@@ -12,7 +12,7 @@ use landform_graph::{BreadthFirst, Lattice, Reach};
 use super::compass::{SIDES, STEPS, diagonal, edges, left_of};
 use super::error::check_length;
 use super::regions::Rules;
-use super::shore_lines::{Side, next_side, side_of};
+use super::sides::{Side, next_side, side_of};
 use super::{CoastError, CoastSettings, PARTS, Perimeter, Shore, spacings};
 
 /// Whether a land node has a neighbour at sea.

@@ -1,7 +1,6 @@
 //! Changes of the numbers along a row, by spans.
 
-/// Columns that are marked together.
-const BLOCK: usize = 16;
+use super::blocks::{BLOCK, RowOfBlocks};
 
 /// Spans of a row in which numbers change, written at their ends.
 ///
@@ -59,18 +58,21 @@ impl RowChanges {
 
     /// Changes the numbers of a row and forgets the changes; names the columns of numbers that are
     /// below zero then, and that lie near to changes.
-    pub(super) fn apply(&mut self, row: &mut [i32], mut below: impl FnMut(usize)) {
+    pub(super) fn apply(&mut self, numbers: &mut RowOfBlocks<'_>, mut below: impl FnMut(usize)) {
         let mut sum = 0_i32;
+        let mut next = 0;
         for word in 0..self.marked.len() {
             let mut marks = std::mem::take(&mut self.marked[word]);
             while marks != 0 {
-                let first = marks.trailing_zeros() as usize;
-                let count = (marks >> first).trailing_ones() as usize;
-                marks &= !(u64::MAX >> (64 - count) << first);
-                let start = (64 * word + first) * BLOCK;
-                let end = (start + count * BLOCK).min(row.len());
-                let numbers = &mut row[start..end];
-                let differences = &mut self.differences[start..end];
+                let block = 64 * word + marks.trailing_zeros() as usize;
+                marks &= marks - 1;
+                if block != next {
+                    self.end_spans(next);
+                    sum = 0;
+                }
+                next = block + 1;
+                let differences = &mut self.differences[block * BLOCK..next * BLOCK];
+                let numbers = numbers.block(block);
                 // The sign bit tells whether any of them is below zero.
                 let mut signs = 0;
                 for (number, difference) in numbers.iter_mut().zip(differences) {
@@ -80,19 +82,15 @@ impl RowChanges {
                 }
                 if signs < 0 {
                     let negative = numbers.iter().enumerate().filter(|(_, number)| **number < 0);
-                    negative.for_each(|(x, _)| below(start + x));
-                }
-                // A span that ends with its block; one that goes on is in the next word.
-                if self.is_next_unmarked(word, first + count) {
-                    sum = 0;
-                    self.differences[end] = 0;
+                    negative.for_each(|(column, _)| below(block * BLOCK + column));
                 }
             }
         }
+        self.end_spans(next);
     }
 
-    /// Whether the block after a run within a word is not marked.
-    fn is_next_unmarked(&self, word: usize, next: usize) -> bool {
-        next < 64 || self.marked.get(word + 1).is_none_or(|marks| marks & 1 == 0)
+    /// Forgets the ends of spans that end with the block before this one.
+    fn end_spans(&mut self, block: usize) {
+        self.differences[block * BLOCK] = 0;
     }
 }

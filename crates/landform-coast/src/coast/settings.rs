@@ -128,7 +128,7 @@ impl Default for CoastSettings {
 
 /// Least and most spacings in a radius of perimeters: below, the shore beside a node would lie
 /// beyond it; above, sums would not fit their numbers.
-const RADIUS: std::ops::RangeInclusive<f64> = 1.5..=1300.0;
+const RADIUS: std::ops::RangeInclusive<f64> = 1.5..=950.0;
 
 /// Most spacings in a radius of weakening, which costs its square at each event.
 const MOST_WEAKENING: f64 = 64.0;

@@ -62,13 +62,13 @@ impl Shore {
             table: std::array::from_fn(|around| side_lengths(around as u8)),
         };
         for node in (0..nodes).filter(|&node| land[node] == 0) {
-            shore.spots[node].is_noted = true;
+            shore.drown(node);
             shore.surround(node, |_| {});
         }
         for node in (0..nodes).filter(|&node| land[node] > 0) {
             // Most land has no shore.
             if shore.spots[node].around != 0 {
-                shore.measure(node, shore.place(node), true);
+                shore.measure(node, shore.place(node));
             }
         }
         shore
@@ -141,12 +141,21 @@ impl Shore {
         !std::mem::replace(&mut self.spots[node].is_noted, true)
     }
 
-    /// Measures the shore of the node at a place anew and gives the change in parts.
-    pub(super) fn measure(&mut self, node: usize, at: [usize; 2], is_land: bool) -> i32 {
-        let length = if is_land { self.side_lengths(node, at).iter().sum() } else { 0 };
-        let change = i32::from(length) - i32::from(self.spots[node].length);
-        self.spots[node].length = length;
-        self.spots[node].is_noted = !is_land;
+    /// Measures the shore of the land node at a place anew and gives the change in parts.
+    pub(super) fn measure(&mut self, node: usize, at: [usize; 2]) -> i32 {
+        self.spots[node].is_noted = false;
+        self.set_length(node, self.side_lengths(node, at).iter().sum())
+    }
+
+    /// Gives a node to the sea, and the change of its shore in parts. It is never measured again.
+    pub(super) fn drown(&mut self, node: usize) -> i32 {
+        self.spots[node].is_noted = true;
+        self.set_length(node, 0)
+    }
+
+    fn set_length(&mut self, node: usize, length: u16) -> i32 {
+        let before = std::mem::replace(&mut self.spots[node].length, length);
+        let change = i32::from(length) - i32::from(before);
         self.total = self.total.wrapping_add_signed(i64::from(change));
         change
     }

@@ -1,267 +1,272 @@
 //! The shore as lines: the sides of land nodes that face the sea, one after another.
 
-use landform_graph::{Connectivity, Lattice};
-
 use super::Shore;
-use super::compass::{SIDES, STEPS, beside, diagonal, left_of, opposite, right_of};
+use super::compass::SIDES;
+use super::marks::Marks;
+use super::sides::{Side, begins, next_side, parts_of, side_of};
+use super::stretch::{MOST_SIDES, NOWHERE, Stretch, place_of, stretch_of};
 
-/// A side of a land node that faces the sea: four times the node plus the direction.
-pub(super) type Side = u32;
-
-/// The side of `node` in a direction.
-pub(super) fn side_of(node: usize, direction: usize) -> Side {
-    (4 * node + direction) as Side
-}
-
-/// No place in a line.
-const NOWHERE: u32 = u32::MAX;
-
-/// One line of shore: a range of the places of [`ShoreLines`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Line {
-    /// First place.
-    pub(super) start: usize,
-    /// The place after the last one.
-    pub(super) end: usize,
-    /// Whether the last side leads to the first one again; other lines end at open borders.
-    pub(super) closed: bool,
-    /// Columns and rows by which a closed line has moved when it comes back to its first side:
-    /// not zero when it runs around a periodic lattice.
-    pub(super) winding: [i32; 2],
-}
-
-/// All lines of a shore, traced with land on the left.
+/// All lines of a shore, traced with land on the left, in short stretches.
 ///
-/// Each side leads to one other: straight on, around the corner of its own land, or across to
-/// the land ahead. Where four nodes meet with land on one diagonal and sea on the other, the
-/// land stays together when the lattice joins it and the sea does otherwise, so that lines of
-/// land that the sea could not pass are never cut. On the 4-8 mesh exactly one of both has an
-/// edge; with four neighbours the sea has none, with eight it has one.
+/// When land falls, the stretches with sides of the nodes around it are taken away, and what is
+/// missing is traced anew: on from the stretches that are left, from borders, and along lines
+/// that are new as a whole. The other stretches stay as they are.
 ///
-/// Cost: constant a side. Memory: 16 bytes a node, 12 a side.
-#[derive(Clone, Debug)]
+/// Cost: constant a side of the stretches where something changes. Memory: about 25 bytes a side.
+#[derive(Clone, Debug, Default)]
 pub(super) struct ShoreLines {
-    /// Place of each side, four a node.
-    places: Vec<u32>,
-    sides: Vec<Side>,
-    /// Columns and rows of the land nodes along each line, not wrapped on periodic axes.
-    at: Vec<[i32; 2]>,
-    lines: Vec<Line>,
-    /// Number of the line of each place.
-    numbers: Vec<u32>,
+    stretches: Vec<Stretch>,
+    /// Stretches that were taken away, to be used again.
+    free: Vec<u32>,
+    /// Stretches to be taken away.
+    cut: Vec<u32>,
+    /// Nodes with sides that may have no place.
+    loose: Vec<u32>,
+    /// The sides of a run that is traced, and the columns and rows of their nodes in the order of
+    /// the run.
+    run: Vec<(Side, [i32; 2])>,
+}
+
+/// What a traced run begins or ends with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// An open border.
+    Border,
+    /// Another stretch, and what its places have to be moved by to be places of the run.
+    Stretch(u32, [i32; 2]),
+    /// The run itself, which has moved by so much when it comes back.
+    Itself([i32; 2]),
 }
 
 impl ShoreLines {
-    /// Memory for the lines of a lattice.
-    pub(super) fn new(nodes: usize) -> Self {
-        Self {
-            places: vec![NOWHERE; 4 * nodes],
-            sides: Vec::new(),
-            at: Vec::new(),
-            lines: Vec::new(),
-            numbers: Vec::new(),
+    /// A stretch.
+    #[inline]
+    pub(super) fn stretch(&self, stretch: u32) -> &Stretch {
+        &self.stretches[stretch as usize]
+    }
+
+    /// What lies around a land node changes, or the node is new on the coast.
+    pub(super) fn loosen(&mut self, node: usize) {
+        self.loose.push(node as u32);
+    }
+
+    /// The stretches of these places do not hold any more.
+    pub(super) fn cut(&mut self, places: [u32; 4]) {
+        for place in places.into_iter().filter(|&place| place != NOWHERE) {
+            let (number, _) = stretch_of(place);
+            let stretch = &mut self.stretches[number as usize];
+            if !std::mem::replace(&mut stretch.is_cut, true) {
+                self.cut.push(number);
+            }
         }
     }
 
-    /// The line that holds a place.
-    pub(super) fn line_of(&self, place: usize) -> Line {
-        self.lines[self.numbers[place] as usize]
-    }
-
-    /// The side at a place.
-    pub(super) fn side(&self, place: usize) -> Side {
-        self.sides[place]
-    }
-
-    /// Columns and rows of the land nodes at all places, not wrapped on periodic axes.
-    pub(super) fn at(&self) -> &[[i32; 2]] {
-        &self.at
-    }
-
-    /// Place of a side of the shore.
-    pub(super) fn place(&self, side: Side) -> usize {
-        self.places[side as usize] as usize
-    }
-
-    /// Traces the shore anew. `coast` names every land node with a side at sea, in any order
-    /// that does not depend on chance; other nodes are passed over.
-    pub(super) fn trace(&mut self, shore: &Shore, coast: &[u32]) {
-        self.sides.iter().for_each(|&side| self.places[side as usize] = NOWHERE);
-        self.sides.clear();
-        self.at.clear();
-        self.lines.clear();
-        self.numbers.clear();
-        let open = [0, 1].map(|axis| !shore.lattice().is_periodic(axis));
-        if open.contains(&true) {
+    /// Makes the lines follow the shore, whose nodes are `marks` among others.
+    pub(super) fn refresh(&mut self, shore: &Shore, marks: &mut Marks) {
+        for index in 0..self.loose.len() {
+            if let Some(slot) = marks.slot(self.loose[index] as usize) {
+                self.cut(marks.places[slot]);
+            }
+        }
+        for end in self.take_away(marks) {
+            self.trace_on(shore, marks, end);
+        }
+        let loose = std::mem::take(&mut self.loose);
+        let open = [0, 1].iter().any(|&axis| !shore.lattice().is_periodic(axis));
+        if open {
             // Lines that end at borders are traced from their beginnings.
-            coast.iter().for_each(|&node| self.trace_from(shore, node as usize, begins));
+            loose.iter().for_each(|&node| self.trace_from(shore, marks, node as usize, begins));
         }
-        coast.iter().for_each(|&node| self.trace_from(shore, node as usize, |_, _, _| true));
+        loose.iter().for_each(|&node| self.trace_from(shore, marks, node as usize, |_, _, _| true));
+        self.loose = loose;
+        self.loose.clear();
     }
 
-    /// Traces the lines from those sides of a node that may begin one.
+    /// Takes the stretches away that are cut, and gives those whose ends are open then.
+    fn take_away(&mut self, marks: &mut Marks) -> Vec<u32> {
+        let mut ends = Vec::new();
+        for number in std::mem::take(&mut self.cut) {
+            let Self { stretches, loose, .. } = self;
+            let stretch = &stretches[number as usize];
+            for &side in stretch.sides() {
+                let (node, direction) = parts_of(side);
+                if let Some(slot) = marks.slot(node) {
+                    marks.places[slot][direction] = NOWHERE;
+                    loose.push(node as u32);
+                }
+            }
+            let [previous, next] = [stretch.previous, stretch.next];
+            if let Some(before) = stretches.get_mut(previous as usize)
+                && !before.is_cut
+            {
+                before.next = NOWHERE;
+                ends.push(previous);
+            }
+            if let Some(next) = stretches.get_mut(next as usize) {
+                next.previous = NOWHERE;
+            }
+            self.free.push(number);
+        }
+        ends
+    }
+
+    /// Traces on from the last side of a stretch.
+    fn trace_on(&mut self, shore: &Shore, marks: &mut Marks, number: u32) {
+        let stretch = self.stretch(number);
+        let (last, at) = (stretch.sides[stretch.count - 1], stretch.at[stretch.count - 1]);
+        let end = self.trace(shore, marks, last, at);
+        self.lay(shore, marks, End::Stretch(number, [0; 2]), end);
+    }
+
+    /// Traces the lines from those sides of a node without a place that may begin one.
     fn trace_from(
         &mut self,
         shore: &Shore,
+        marks: &mut Marks,
         node: usize,
         may_begin: impl Fn(&Shore, usize, usize) -> bool,
     ) {
+        let Some(slot) = marks.slot(node) else { return };
         let exposed = shore.around(node) & SIDES;
         for direction in (0..4).filter(|direction| exposed >> direction & 1 == 1) {
+            if marks.places[slot][direction] != NOWHERE || !may_begin(shore, node, direction) {
+                continue;
+            }
             let side = side_of(node, direction);
-            if self.places[side as usize] == NOWHERE && may_begin(shore, node, direction) {
-                self.follow(shore, side);
+            let at = shore.place(node).map(|along| along as i32);
+            self.run.push((side, at));
+            match self.trace(shore, marks, side, at) {
+                End::Itself(winding) => {
+                    self.lay(shore, marks, End::Itself(winding), End::Itself(winding));
+                }
+                end => self.lay(shore, marks, End::Border, end),
             }
         }
     }
 
-    /// Traces one line from its first side.
-    fn follow(&mut self, shore: &Shore, first: Side) {
-        let (start, number) = (self.sides.len(), self.lines.len() as u32);
-        let place = shore.place((first / 4) as usize);
-        let mut at = place.map(|along| along as i32);
-        let mut here = place;
-        let mut side = first;
-        let winding = loop {
-            self.places[side as usize] = self.sides.len() as u32;
-            self.sides.push(side);
-            self.at.push(at);
-            self.numbers.push(number);
-            let Some((next, step, there)) = next_side(shore, side, here) else { break None };
+    /// Adds the sides that follow `side` to the run, up to one that has a place, to the first side
+    /// of the run or to a border.
+    fn trace(&mut self, shore: &Shore, marks: &Marks, mut side: Side, mut at: [i32; 2]) -> End {
+        let first = self.run.first().copied();
+        let mut here = shore.place(parts_of(side).0);
+        while let Some((next, step, there)) = next_side(shore, side, here) {
             at = [0, 1].map(|axis| at[axis] + step[axis] as i32);
-            if next == first {
-                break Some([0, 1].map(|axis| at[axis] - self.at[start][axis]));
+            if let Some((_, begun)) = first.filter(|&(first, _)| first == next) {
+                return End::Itself([0, 1].map(|axis| at[axis] - begun[axis]));
             }
+            let (node, direction) = parts_of(next);
+            let place = marks.slot(node).map_or(NOWHERE, |slot| marks.places[slot][direction]);
+            if place != NOWHERE {
+                return self.meet(stretch_of(place).0, at);
+            }
+            self.run.push((next, at));
             (side, here) = (next, there);
+        }
+        End::Border
+    }
+
+    /// The end of a run at the first side of a stretch, which lies at `at` as the run has it.
+    fn meet(&self, number: u32, at: [i32; 2]) -> End {
+        let first = self.stretch(number).at[0];
+        End::Stretch(number, [0, 1].map(|axis| at[axis] - first[axis]))
+    }
+
+    /// Lays the run between its ends in stretches of about the same length.
+    fn lay(&mut self, shore: &Shore, marks: &mut Marks, start: End, end: End) {
+        let end = self.absorb(start, end);
+        let mut run = std::mem::take(&mut self.run);
+        let (mut last, mut shift) = match start {
+            End::Stretch(number, shift) => (number, shift),
+            _ => (NOWHERE, [0; 2]),
         };
-        let closed = winding.is_some();
-        let winding = winding.unwrap_or_default();
-        self.lines.push(Line { start, end: self.sides.len(), closed, winding });
+        let mut first = NOWHERE;
+        let count = run.len().div_ceil(MOST_SIDES);
+        for part in 0..count {
+            let sides = &run[part * run.len() / count..(part + 1) * run.len() / count];
+            let (number, moved) = self.put(shore, marks, sides);
+            let by = [0, 1].map(|axis| moved[axis] - shift[axis]);
+            if last != NOWHERE {
+                self.link(last, number, by);
+            }
+            first = if part == 0 { number } else { first };
+            (last, shift) = (number, moved);
+        }
+        match end {
+            End::Border => {}
+            End::Stretch(number, moved) => {
+                self.link(last, number, [0, 1].map(|axis| moved[axis] - shift[axis]));
+            }
+            // A run that comes back began on the map where its first stretch does.
+            End::Itself(winding) => {
+                self.link(last, first, [0, 1].map(|axis| winding[axis] - shift[axis]));
+            }
+        }
+        run.clear();
+        self.run = run;
     }
-}
 
-/// Whether a side is the first of a line that begins at an open border.
-fn begins(shore: &Shore, node: usize, direction: usize) -> bool {
-    let at = shore.place(node);
-    let inner = shore.lattice().is_interior([at[0], at[1], 0]);
-    !inner && beside(shore.lattice(), at, right_of(direction)).is_none()
-}
-
-/// The side that follows `side` with land on the left, the step to its node and the place of
-/// that; `None` where the line ends at an open border.
-#[inline]
-pub(super) fn next_side(
-    shore: &Shore,
-    side: Side,
-    at: [usize; 2],
-) -> Option<(Side, [isize; 2], [usize; 2])> {
-    let (node, direction) = ((side / 4) as usize, (side % 4) as usize);
-    let ahead = left_of(direction);
-    let is_sea = |direction: usize| shore.around(node) >> direction & 1 == 1;
-    let lattice = shore.lattice();
-    let (step, facing) = match (is_sea(ahead), is_sea(diagonal(direction))) {
-        (true, true) => ([0, 0], ahead),
-        (true, false) if !joins_land(lattice, at) => ([0, 0], ahead),
-        (true, false) | (false, false) => (STEPS[diagonal(direction)], opposite(ahead)),
-        (false, true) => (STEPS[ahead], direction),
-    };
-    let inner = lattice.is_interior([at[0], at[1], 0]);
-    if !inner && beside(lattice, at, ahead).is_none() {
-        return None;
+    /// Adds the stretch to a short run that it meets, so that stretches do not become ever
+    /// shorter; gives the end of the longer run.
+    fn absorb(&mut self, start: End, end: End) -> End {
+        let End::Stretch(number, moved) = end else { return end };
+        let stretch = &self.stretches[number as usize];
+        let is_start = matches!(start, End::Stretch(start, _) if start == number);
+        // One without a successor may have lost it, and waits for being traced on from.
+        let is_short = (1..MOST_SIDES / 2).contains(&self.run.len());
+        if is_start || stretch.next == NOWHERE || !is_short {
+            return end;
+        }
+        let move_by = |at: [i32; 2], by: [i32; 2]| [0, 1].map(|axis| at[axis] + by[axis]);
+        let sides = stretch.sides().iter().zip(&stretch.at);
+        self.run.extend(sides.map(|(&side, &at)| (side, move_by(at, moved))));
+        self.free.push(number);
+        let next = stretch.next;
+        let end = End::Stretch(next, move_by(moved, stretch.shift));
+        self.stretches[next as usize].previous = NOWHERE;
+        end
     }
-    if inner {
-        let there = [0, 1].map(|axis| at[axis].wrapping_add_signed(step[axis]));
-        let next = node.wrapping_add_signed(step[0] + step[1] * lattice.width() as isize);
-        return Some((side_of(next, facing), step, there));
-    }
-    let next = lattice.offset([at[0], at[1], 0], [step[0], step[1], 0])?;
-    let [x, y, _] = lattice.coordinates(next);
-    Some((side_of(next, facing), step, [x, y]))
-}
 
-/// Whether land at `at` is joined to land across a corner when the other two nodes there are
-/// sea.
-fn joins_land(lattice: &Lattice, at: [usize; 2]) -> bool {
-    match lattice.connectivity() {
-        Connectivity::FourEight => (at[0] + at[1]).is_multiple_of(2),
-        Connectivity::Eight => false,
-        _ => true,
+    /// Stores sides as a stretch and gives its number and what its places have to be moved by to
+    /// be places of the run.
+    fn put(
+        &mut self,
+        shore: &Shore,
+        marks: &mut Marks,
+        sides: &[(Side, [i32; 2])],
+    ) -> (u32, [i32; 2]) {
+        let on_map = shore.place(parts_of(sides[0].0).0);
+        let moved = [0, 1].map(|axis| sides[0].1[axis] - on_map[axis] as i32);
+        let stretch = Stretch::new(sides.iter().map(|&(side, at)| {
+            let (node, direction) = parts_of(side);
+            let at = [0, 1].map(|axis| at[axis] - moved[axis]);
+            (side, at, shore.side_lengths(node, shore.place(node))[direction])
+        }));
+        let number = match self.free.pop() {
+            Some(number) => {
+                self.stretches[number as usize] = stretch;
+                number
+            }
+            None => {
+                self.stretches.push(stretch);
+                self.stretches.len() as u32 - 1
+            }
+        };
+        for (index, &(side, _)) in sides.iter().enumerate() {
+            let (node, direction) = parts_of(side);
+            if let Some(slot) = marks.slot(node) {
+                marks.places[slot][direction] = place_of(number, index);
+            }
+        }
+        (number, moved)
+    }
+
+    /// Lets a stretch follow another.
+    fn link(&mut self, from: u32, to: u32, shift: [i32; 2]) {
+        let stretch = &mut self.stretches[from as usize];
+        (stretch.next, stretch.shift) = (to, shift);
+        self.stretches[to as usize].previous = from;
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::coast::testing::{any_land, any_lattice, coast_of};
-    use landform_graph::Boundary;
-    use proptest::prelude::*;
-
-    fn traced(lattice: &Lattice, land: &[u8]) -> (Shore, ShoreLines) {
-        let shore = Shore::new(lattice, land);
-        let mut lines = ShoreLines::new(land.len());
-        lines.trace(&shore, &coast_of(&shore, land));
-        (shore, lines)
-    }
-
-    proptest! {
-        #[test]
-        fn every_side_at_sea_lies_on_one_line(lattice in any_lattice(), seed in 0_u64..500) {
-            let land = any_land(&lattice, seed);
-            let (_, lines) = traced(&lattice, &land);
-            let mut seen = vec![0; 4 * land.len()];
-            lines.sides.iter().for_each(|&side| seen[side as usize] += 1);
-            for node in 0..land.len() {
-                let [x, y, _] = lattice.coordinates(node);
-                for direction in 0..4 {
-                    let sea = beside(&lattice, [x, y], direction).is_some_and(|n| land[n] == 0);
-                    let expected = u32::from(land[node] > 0 && sea);
-                    prop_assert_eq!(seen[4 * node + direction], expected);
-                }
-            }
-        }
-
-        #[test]
-        fn steps_along_lines_are_short_and_closed_lines_close(
-            lattice in any_lattice(),
-            seed in 0_u64..500,
-        ) {
-            let land = any_land(&lattice, seed);
-            let (shore, lines) = traced(&lattice, &land);
-            for line in &lines.lines {
-                for place in line.start..line.end {
-                    prop_assert_eq!(lines.line_of(place), *line);
-                    prop_assert_eq!(lines.place(lines.side(place)), place);
-                    let at = shore.place((lines.side(place) / 4) as usize);
-                    let next = next_side(&shore, lines.side(place), at);
-                    if place + 1 < line.end {
-                        prop_assert_eq!(next.map(|next| next.0), Some(lines.side(place + 1)));
-                        let [from, to] = [lines.at()[place], lines.at()[place + 1]];
-                        let step = [to[0] - from[0], to[1] - from[1]].map(i32::abs);
-                        prop_assert!(step.iter().all(|&step| step <= 1));
-                    } else {
-                        let first = line.closed.then(|| lines.side(line.start));
-                        prop_assert_eq!(next.map(|next| next.0), first);
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn corners_that_touch_follow_the_edges_of_the_lattice() {
-        // Land at (1, 1) and (2, 2), whose columns and rows add to even numbers.
-        let mut land = [0; 16];
-        (land[5], land[10]) = (1, 1);
-        let mut other = [0; 16];
-        (other[6], other[9]) = (1, 1);
-        for (connectivity, even, odd) in [
-            (Connectivity::Four, 1, 1),
-            (Connectivity::FourEight, 1, 2),
-            (Connectivity::Eight, 2, 2),
-        ] {
-            let lattice = Lattice::plane([4, 4], 1.0, connectivity, [Boundary::Open; 2]).unwrap();
-            assert_eq!(traced(&lattice, &land).1.lines.len(), even, "{connectivity:?}");
-            assert_eq!(traced(&lattice, &other).1.lines.len(), odd, "{connectivity:?}");
-        }
-    }
-}
+mod tests;

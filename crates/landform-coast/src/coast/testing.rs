@@ -4,9 +4,6 @@ use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_sim::random::RandomStream;
 use proptest::prelude::*;
 
-use super::Shore;
-use super::compass::SIDES;
-
 /// Any small 2-D lattice.
 pub(super) fn any_lattice() -> impl Strategy<Value = Lattice> {
     let connectivity = prop_oneof![
@@ -38,10 +35,4 @@ pub(super) fn any_land(lattice: &Lattice, seed: u64) -> Vec<u8> {
 pub(super) fn any_resistance(lattice: &Lattice, seed: u64) -> Vec<f64> {
     let random = RandomStream::new(seed, "resistance");
     (0..lattice.node_count()).map(|node| random.unit(0, node, 0)).collect()
-}
-
-/// Land nodes with a side at sea.
-pub(super) fn coast_of(shore: &Shore, land: &[u8]) -> Vec<u32> {
-    let is_coast = |&node: &usize| land[node] > 0 && shore.around(node) & SIDES != 0;
-    (0..land.len()).filter(is_coast).map(|node| node as u32).collect()
 }

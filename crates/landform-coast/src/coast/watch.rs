@@ -37,7 +37,7 @@ impl Watch {
     }
 
     /// The strength of a coast node has changed.
-    pub(super) fn strength(&mut self, sea: &Sea, marks: &mut Marks, node: usize) {
+    pub(super) fn strength(&mut self, sea: &Sea, shore: &Shore, marks: &mut Marks, node: usize) {
         let Some(slot) = marks.slot(node) else { return };
         let strength = marks.strengths[slot];
         match self {
@@ -47,7 +47,9 @@ impl Watch {
                 let before = std::mem::replace(&mut marks.limits[slot], limit);
                 sums.move_limit(node, limit - before);
             }
-            Self::Contiguous(_) => {}
+            Self::Contiguous(arcs) => {
+                arcs.strength(shore.place(node), sea.can_fell(node, strength))
+            }
         }
     }
 
@@ -56,39 +58,52 @@ impl Watch {
         if let Self::Whole(weakest) = self {
             *weakest = shelves(sea);
         }
-        if let Self::Contiguous(arcs) = self {
-            return arcs.change_all();
-        }
         for slot in 0..marks.nodes.len() {
-            self.strength(sea, marks, marks.nodes[slot] as usize);
+            self.strength(sea, shore, marks, marks.nodes[slot] as usize);
+        }
+        if let Self::Contiguous(arcs) = self {
+            arcs.change_all();
         }
         self.refresh(shore, marks);
     }
 
     /// Something around a node has changed, and the length of its shore by an amount in parts.
     #[inline]
-    pub(super) fn touched(&mut self, at: [usize; 2], change: i32) {
+    pub(super) fn touched(&mut self, node: usize, at: [usize; 2], change: i32) {
         match self {
             Self::Near(sums) if change != 0 => sums.add(at, change),
-            Self::Contiguous(arcs) => arcs.change(at),
+            Self::Contiguous(arcs) => arcs.touch(node),
             _ => {}
         }
     }
 
-    /// A node has left the coast, where it had a limit.
+    /// A node has left the coast, where it had a limit and its sides had places; its shore has
+    /// changed by an amount in parts.
     #[inline]
-    pub(super) fn fallen(&mut self, node: usize, limit: i32) {
-        if let Self::Near(sums) = self {
-            sums.move_limit(node, -limit);
+    pub(super) fn fallen(
+        &mut self,
+        node: usize,
+        at: [usize; 2],
+        change: i32,
+        limit: i32,
+        places: [u32; 4],
+    ) {
+        match self {
+            Self::Whole(_) => {}
+            Self::Near(sums) => {
+                sums.add(at, change);
+                sums.move_limit(node, -limit);
+            }
+            Self::Contiguous(arcs) => arcs.fall(at, places),
         }
     }
 
     /// Brings perimeters up to date.
-    pub(super) fn refresh(&mut self, shore: &Shore, marks: &Marks) {
+    pub(super) fn refresh(&mut self, shore: &Shore, marks: &mut Marks) {
         match self {
             Self::Whole(_) => {}
             Self::Near(sums) => sums.refresh(),
-            Self::Contiguous(arcs) => arcs.refresh(shore, &marks.nodes),
+            Self::Contiguous(arcs) => arcs.refresh(shore, marks),
         }
     }
 
@@ -109,7 +124,7 @@ impl Watch {
                 let limit = marks.slot(node).map_or(0, |slot| marks.limits[slot]);
                 sea.local((i64::from(sums.margin(node)) + i64::from(limit)) as u64)
             }
-            Self::Contiguous(arcs) => sea.local(arcs.length(shore, node)),
+            Self::Contiguous(arcs) => sea.local(arcs.length(shore, marks, node)),
         }
     }
 
@@ -131,16 +146,13 @@ impl Watch {
             }
             Self::Near(sums) => sums.take_below(weak),
             Self::Contiguous(arcs) => {
-                for (&node, &strength) in marks.nodes.iter().zip(&marks.strengths) {
-                    let at = node as usize;
-                    if sea.can_fell(at, strength)
-                        && arcs.may_differ(shore.place(at))
-                        && strength < sea.force(at, sea.local(arcs.length(shore, at)))
-                    {
-                        weak.push(node);
-                    }
-                }
-                arcs.forget_changes();
+                let mut concerned = Vec::new();
+                arcs.take_concerned(|node| concerned.push(node));
+                weak.extend(concerned.into_iter().filter_map(|node| {
+                    let strength = marks.strengths[marks.slot(node)?];
+                    let perimeter = sea.local(arcs.length(shore, marks, node));
+                    (strength < sea.force(node, perimeter)).then_some(node as u32)
+                }));
             }
         }
     }

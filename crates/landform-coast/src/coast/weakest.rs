@@ -74,7 +74,7 @@ mod tests {
                     let strength = if strength == 7 { f64::NAN } else { f64::from(strength) };
                     // Many of these share a shelf.
                     let strength = 0.3 + 1e-5 * strength;
-                    marks.set(node, strength);
+                    marks.set(node, 1.0, strength);
                     weakest.note(node, strength);
                 }
                 let force = 0.3 + 1e-5 * f64::from(forces[turn % forces.len()]);

@@ -99,7 +99,7 @@ impl Process for CoastErosion {
         let perimeter_bytes = match self.perimeter {
             Perimeter::Whole => 0,
             Perimeter::Near { .. } => 4,
-            Perimeter::Contiguous { .. } => 16,
+            Perimeter::Contiguous { .. } => 1,
         };
         // Both are asked for: a map without land or rock would be a mistake.
         uses.reads::<Land>()

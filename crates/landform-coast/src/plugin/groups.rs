@@ -98,8 +98,15 @@ pub(super) const LAND_BUDGET: Budget =
 
 /// Area of land in square metres: a whole number of nodes, so that the account closes.
 fn area(world: &World) -> f64 {
-    let land = stored_values::<Land>(world).iter().filter(|&&land| land > 0).count();
+    let land = land_nodes(stored_values::<Land>(world));
     land as f64 * node_area_m2(world.resource::<Space>())
+}
+
+/// Number of nodes that are land. It is asked for at every iteration: counts of one byte in blocks
+/// that cannot overflow it are many times as fast as one count.
+pub(super) fn land_nodes(land: &[u8]) -> usize {
+    let count = |block: &[u8]| block.iter().map(|&land| u8::from(land > 0)).sum::<u8>();
+    land.chunks(usize::from(u8::MAX)).map(|block| usize::from(count(block))).sum()
 }
 
 /// Area of a node in square metres.
@@ -113,4 +120,17 @@ pub(super) fn coast_surface(world: &World) -> Vec<f64> {
     let height = 1.5 * world.resource::<Space>().spacing();
     let level = |&land: &u8| if land > 0 { height } else { -height };
     stored_values::<Land>(world).iter().map(level).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::land_nodes;
+
+    #[test]
+    fn land_is_counted_whatever_its_value() {
+        let land: Vec<u8> = (0..2000).map(|node| (node % 3 * 100) as u8).collect();
+        assert_eq!(land_nodes(&land), land.iter().filter(|&&land| land > 0).count());
+        assert_eq!(land_nodes(&[255; 1000]), 1000);
+        assert_eq!(land_nodes(&[]), 0);
+    }
 }

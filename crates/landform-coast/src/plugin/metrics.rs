@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Land;
 use super::erosion::{CoastRecord, CoastState};
+use super::groups::land_nodes;
 use crate::coast::{Coast, Shore, islands, spacings};
 
 /// What the sea does: `coast_events`, the nodes that fell in the latest iteration (none yet at the
@@ -31,7 +32,7 @@ impl Metric for CoastActivity {
         let world = snapshot.world();
         let Some(record) = world.get_resource::<CoastRecord>() else { return Ok(Vec::new()) };
         let land = stored_values::<Land>(world);
-        let left = land.iter().filter(|&&land| land > 0).count() as f64;
+        let left = land_nodes(land) as f64;
         // The coast of an earlier stage knows nothing of what happened since.
         let coast = world.get_resource::<CoastState>().map(|state| &state.0);
         let coast = coast.filter(|_| record.stage == snapshot.clock().stage);
