@@ -65,7 +65,8 @@ pub use georeference::{
 };
 pub use limits::ReadLimits;
 pub use lines::{
-    Feature, FeatureSystem, LineCoordinates, LineFile, LocalPlane, read_lines, write_features,
+    Feature, FeatureSystem, Geometry, LineCoordinates, LineFile, LocalPlane, read_lines,
+    write_features,
 };
 pub use mesh::{Mesh, write_mesh};
 pub use metadata::{Encoding, Metadata, Sidecar};

@@ -10,6 +10,7 @@
 pub mod erosion;
 mod error;
 mod frame;
+pub mod lakes;
 mod plugin;
 pub mod slope_area;
 pub mod water;

@@ -38,6 +38,8 @@ pub fn registry() -> Registry {
         .output::<outputs::AgentMap>()
         .output::<outputs::AgentTable>()
         .output::<outputs::LevelLines>()
+        .output::<outputs::RiverLines>()
+        .output::<outputs::LakeOutlines>()
         .output::<outputs::IslandTable>()
         .output::<outputs::Mesh>();
     registry

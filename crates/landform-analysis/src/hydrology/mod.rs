@@ -10,6 +10,7 @@ mod drainage;
 mod fill;
 mod flats;
 mod infinity;
+mod links;
 mod scaling;
 mod streams;
 #[cfg(test)]
@@ -20,6 +21,7 @@ pub use directions::FlowDirections;
 pub use drainage::Drainage;
 pub use fill::fill_depressions;
 pub use infinity::DInfinity;
+pub use links::{StreamLink, stream_links, wet_cells};
 pub use scaling::{
     AreaRange, PowerLaw, SlopeArea, area_exceedance, hack_exponent, longest_ways, slope_area,
 };

@@ -14,7 +14,7 @@ mod plane;
 mod write;
 
 pub use plane::{LocalPlane, extent};
-pub use write::{Feature, FeatureSystem, write_features};
+pub use write::{Feature, FeatureSystem, Geometry, Points, write_features};
 
 use std::fs::File;
 use std::io::Read;

@@ -1,4 +1,4 @@
-//! Lines with properties into CSV and GeoJSON files.
+//! Lines and areas with properties into CSV and GeoJSON files.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -8,12 +8,24 @@ use serde_json::{Map, Value, json};
 use crate::files::{extension, unknown};
 use crate::{CoordinateKind, Georeference, IfExists, IoError, write_atomically};
 
-/// A line on the map with what is known about it.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Points in the coordinates of the map, `[x, y]` or `[longitude, latitude]`. The last point of a
+/// closed line is its first.
+pub type Points = Vec<[f64; 2]>;
+
+/// What lies on the map.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// A line.
+    Line(Points),
+    /// Areas: each an outer ring, counter-clockwise, and rings round its holes, clockwise.
+    Areas(Vec<Vec<Points>>),
+}
+
+/// A thing on the map with what is known about it.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// Points in the coordinates of the map: `[x, y]` or `[longitude, latitude]`. The last point
-    /// of a closed line is its first.
-    pub points: Vec<[f64; 2]>,
+    /// Where it is.
+    pub geometry: Geometry,
     /// Names and numbers, the same names in the same order for all lines of a file.
     pub properties: Vec<(&'static str, f64)>,
 }
@@ -42,7 +54,8 @@ impl FeatureSystem {
 }
 
 /// Writes features to a file whose extension names the format: `.csv`, a point a row with the
-/// number of its line, its properties and its coordinates; or `.geojson`, a `LineString` each.
+/// number of its line, its properties and its coordinates, each ring of an area a line; or
+/// `.geojson`, a `LineString` or `MultiPolygon` each.
 ///
 /// RFC 7946 knows only degrees. Features in metres carry the `crs` member of the older GeoJSON
 /// (2008), which geographic information systems read: a name, or null where there is none.
@@ -69,11 +82,15 @@ fn table(file: &mut impl Write, features: &[Feature], system: FeatureSystem) -> 
         write!(file, ",{name}")?;
     }
     writeln!(file, "{}", if system == FeatureSystem::Geographic { ",lon,lat" } else { ",x,y" })?;
-    for (index, feature) in features.iter().enumerate() {
-        let mut lead = (index + 1).to_string();
-        feature.properties.iter().for_each(|(_, value)| lead += &format!(",{value:?}"));
-        for [x, y] in &feature.points {
-            writeln!(file, "{lead},{x:?},{y:?}")?;
+    let mut number = 0;
+    for feature in features {
+        let known: String =
+            feature.properties.iter().map(|(_, value)| format!(",{value:?}")).collect();
+        for line in feature.geometry.lines() {
+            number += 1;
+            for [x, y] in line {
+                writeln!(file, "{number}{known},{x:?},{y:?}")?;
+            }
         }
     }
     Ok(())
@@ -97,16 +114,30 @@ fn collection(
     writeln!(file, "{{\"type\": \"FeatureCollection\", {crs}\"features\": [")?;
     for (index, feature) in features.iter().enumerate() {
         let comma = if index + 1 < features.len() { "," } else { "" };
-        writeln!(file, "{}{comma}", geometry(feature))?;
+        writeln!(file, "{}{comma}", object(feature))?;
     }
     writeln!(file, "]}}")
 }
 
-fn geometry(feature: &Feature) -> Value {
+fn object(feature: &Feature) -> Value {
     let named = feature.properties.iter().map(|&(name, value)| (name.to_owned(), json!(value)));
+    let (kind, coordinates) = match &feature.geometry {
+        Geometry::Line(points) => ("LineString", json!(points)),
+        Geometry::Areas(areas) => ("MultiPolygon", json!(areas)),
+    };
     json!({
         "type": "Feature",
         "properties": named.collect::<Map<_, _>>(),
-        "geometry": { "type": "LineString", "coordinates": feature.points },
+        "geometry": { "type": kind, "coordinates": coordinates },
     })
+}
+
+impl Geometry {
+    /// The line, or the rings.
+    fn lines(&self) -> Vec<&Points> {
+        match self {
+            Self::Line(points) => vec![points],
+            Self::Areas(areas) => areas.iter().flatten().collect(),
+        }
+    }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use landform_analysis::{LevelSet, LevelSetEdge, level_sets};
 use landform_graph::Lattice;
-use landform_io::{Feature, FeatureSystem, Georeference, IfExists, write_features};
+use landform_io::{Feature, Geometry};
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -12,6 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
+use super::map_place::MapPlace;
 
 /// The lines along which a field passes through some levels, contours or coasts, with their levels:
 /// as comma-separated values, a point a row with the number of its line, or as GeoJSON, a
@@ -83,25 +84,16 @@ impl FileOutput for LevelLines {
         };
         let lines = self.levels.iter().map(lines).collect::<Result<Vec<_>, _>>();
         let lines = lines.map_err(|error| Problem::new("levels", error.to_string(), ""))?;
-        let place = snapshot.domain().georeference.as_ref();
-        let place = place.and_then(|place| place.downcast_ref::<Georeference>()).cloned();
-        let place = place.unwrap_or_else(|| Georeference::local(size[1], lattice.spacing()));
+        let place = MapPlace::of(snapshot);
         let features = lines
             .iter()
             .flat_map(|(level, lines)| lines.iter().map(|line| feature(*level, line, &place)));
-        let features: Vec<Feature> = features.collect();
-        let system = FeatureSystem::of(&place, size);
-        write_features(path, &features, system, IfExists::Replace)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))
+        place.write(path, &features.collect::<Vec<_>>())
     }
 }
 
 /// A line at its place on the map.
-fn feature(level: f64, line: &LevelSet, place: &Georeference) -> Feature {
-    let placed = |&[column, row]: &[f64; 2]| {
-        let steps = [column + 0.5, -(row + 0.5)];
-        let corner = [place.west, place.north];
-        [0, 1].map(|axis| corner[axis] + steps[axis] * place.cell_size[axis])
-    };
-    Feature { points: line.points.iter().map(placed).collect(), properties: vec![("level", level)] }
+fn feature(level: f64, line: &LevelSet, place: &MapPlace) -> Feature {
+    let points = line.points.iter().map(|&at| place.point(at)).collect();
+    Feature { geometry: Geometry::Line(points), properties: vec![("level", level)] }
 }

@@ -1,0 +1,114 @@
+//! Rivers and lakes as lines and areas.
+
+use std::fs;
+
+use landform_tests::{Program, Scratch};
+use serde_json::Value;
+
+/// A valley that falls to the south, with a lake in a bowl of the plain beside it; no water moves.
+const STILL: &str = r#"(
+    title: "Valley and lake",
+    seed: 1,
+    domain: Raster(path: "bed.asc", connectivity: Eight),
+    initial: [
+        (field: "bed", from: DomainRaster()),
+        (field: "water", from: RasterFile(path: "water.asc")),
+    ],
+    stages: [(name: "still", processes: [WaterColumn(rain_m: 0.0, sweeps: 1, loss: 0.0)], stop: Iterations(1))],
+    outputs: [
+        RiverLines(file: "rivers.geojson", water: "water", flow: "flow", channel_nodes: 40),
+        RiverLines(file: "dry.csv", channel_nodes: 40),
+        LakeOutlines(file: "lakes.geojson"),
+    ],
+)"#;
+
+/// A raster of 40 by 30 nodes, 20 m apart.
+fn raster(value: impl Fn(usize, usize) -> f64) -> String {
+    let head = "ncols 40\nnrows 30\nxllcorner 1000\nyllcorner 500\ncellsize 20\n";
+    let row = |y: usize| (0..40).map(|x| format!("{} ", value(x, y))).collect::<String>() + "\n";
+    head.to_owned() + &(0..30).map(row).collect::<String>()
+}
+
+fn run() -> Scratch {
+    let scratch = Scratch::new("rivers");
+    // A ring-shaped lake of 7 by 7 nodes round an island of 3 by 3, in a plain that falls south.
+    let ring = |x: usize, y: usize| {
+        let [dx, dy] = [x.abs_diff(25), y.abs_diff(12)];
+        (dx.max(dy) <= 3 && dx.max(dy) >= 2).then_some(())
+    };
+    let plain = |y: usize| 100.0 - y as f64;
+    let bed = |x: usize, y: usize| match ring(x, y) {
+        Some(()) => 60.0,
+        None if x <= 10 => plain(y) - 20.0 + 4.0 * x.abs_diff(5) as f64,
+        None => plain(y),
+    };
+    let water = |x: usize, y: usize| if ring(x, y).is_some() { 5.0 } else { 0.0 };
+    scratch.write("bed.asc", raster(bed));
+    scratch.write("water.asc", raster(water));
+    scratch.write("still.ron", STILL);
+    Program::within(scratch.folder()).line("run still.ron -o o --quiet").run().good();
+    scratch
+}
+
+fn features(scratch: &Scratch, file: &str) -> Vec<Value> {
+    let text = fs::read_to_string(scratch.path("o").join(file)).expect("a file");
+    let json: Value = serde_json::from_str(&text).expect("JSON");
+    json["features"].as_array().expect("features").clone()
+}
+
+/// Twice the area within a ring, above 0 counter-clockwise.
+fn twice_area(ring: &Value) -> f64 {
+    let points: Vec<[f64; 2]> = serde_json::from_value(ring.clone()).expect("points");
+    points.windows(2).map(|pair| pair[0][0] * pair[1][1] - pair[1][0] * pair[0][1]).sum()
+}
+
+#[test]
+fn a_lake_is_an_area_with_its_island_as_a_hole() {
+    let scratch = run();
+    let lakes = features(&scratch, "lakes.geojson");
+    assert_eq!(lakes.len(), 1);
+    let known = &lakes[0]["properties"];
+    // 49 nodes less the nine of the island, of 400 m2.
+    assert_eq!(known["area_m2"], 16_000.0);
+    assert_eq!(known["volume_m3"], 80_000.0);
+    assert_eq!([&known["level_m"], &known["depth_m"]], [65.0, 5.0]);
+    let areas = lakes[0]["geometry"]["coordinates"].as_array().expect("areas");
+    assert_eq!(areas.len(), 1);
+    let rings = areas[0].as_array().expect("rings");
+    // Corners are cut by an eighth of a node each.
+    assert_eq!(
+        rings.iter().map(twice_area).collect::<Vec<_>>(),
+        [2.0 * 400.0 * (49.0 - 0.5), -2.0 * 400.0 * (9.0 - 0.5),]
+    );
+    let first: [f64; 2] = serde_json::from_value(rings[0][0].clone()).expect("a point");
+    assert!((1420.0..1600.0).contains(&first[0]) && (760.0..1000.0).contains(&first[1]));
+}
+
+#[test]
+fn rivers_flow_into_one_another_and_out_of_the_map() {
+    let scratch = run();
+    let rivers = features(&scratch, "rivers.geojson");
+    let number = |river: &Value, name: &str| river["properties"][name].as_f64().expect("a number");
+    let trunk = rivers.iter().max_by(|a, b| number(a, "area_m2").total_cmp(&number(b, "area_m2")));
+    let trunk = trunk.expect("a river");
+    assert_eq!(number(trunk, "into"), 0.0);
+    // The valley's axis is the sixth column.
+    let line: Vec<[f64; 2]> =
+        serde_json::from_value(trunk["geometry"]["coordinates"].clone()).expect("points");
+    assert!(line.iter().all(|point| point[0] == 1110.0), "{line:?}");
+    assert_eq!(line.last(), Some(&[1110.0, 510.0]));
+    assert_eq!(number(trunk, "width_m"), 20.0 * line.len() as f64 / (line.len() - 1) as f64);
+    for river in &rivers {
+        let into = number(river, "into");
+        let below = rivers.iter().find(|other| number(other, "river") == into);
+        assert!(
+            into == 0.0 || below.is_some_and(|b| number(b, "area_m2") > number(river, "area_m2"))
+        );
+        assert!(number(river, "order") >= 1.0 && river["properties"]["discharge_m3"].is_number());
+    }
+    let dry = fs::read_to_string(scratch.path("o/dry.csv")).expect("a table");
+    assert_eq!(
+        dry.lines().next(),
+        Some("line,river,into,order,length_m,area_m2,width_m,depth_m,x,y")
+    );
+}
