@@ -1,5 +1,6 @@
 //! What can be wrong with rivers and their ground.
 
+use landform_analysis::grid::GridError;
 use landform_graph::Connectivity;
 use thiserror::Error;
 
@@ -48,6 +49,25 @@ pub enum RiverError {
         /// Largest diffusion allowed.
         most_m2: f64,
     },
+    /// An iteration of the area-map form takes too many steps to be stable.
+    #[error(
+        "an iteration of {step_yr} years is too long for this spacing; take at most {most_yr:.3}"
+    )]
+    LongStep {
+        /// Years asked for.
+        step_yr: f64,
+        /// Most years.
+        most_yr: f64,
+    },
+    /// The lattice does not suit routing by D8.
+    #[error(
+        "drainage areas need eight neighbours and open borders; the lattice joins {0:?}: write \
+         `connectivity: Eight, boundary: (Open, Open)` in the domain"
+    )]
+    Unsuited(Connectivity),
+    /// Water cannot be routed over the heights.
+    #[error("{0}")]
+    Routing(GridError),
     /// A place lies outside the lattice.
     #[error("the place {center:?} lies outside the domain; give two shares between 0 and 1")]
     Outside {

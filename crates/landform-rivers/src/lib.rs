@@ -5,8 +5,10 @@
 //! large, and captures tributaries as it does.
 //!
 //! [`water`] is water with a depth: columns that stand on the ground and flow to lower neighbours.
-//! [`erosion`] is the thesis' hydraulic erosion by that flow.
+//! [`erosion`] is the thesis' hydraulic erosion by that flow; [`area_map`] the model that it starts
+//! from, with the area that a node drains in place of flow.
 
+pub mod area_map;
 pub mod erosion;
 mod error;
 mod frame;
@@ -15,6 +17,7 @@ mod plugin;
 pub mod slope_area;
 pub mod water;
 
+pub use area_map::AreaMapErosion;
 pub use erosion::HydraulicErosion;
 pub use error::RiverError;
 pub use plugin::{
@@ -28,5 +31,6 @@ use landform_sim::registry::Registry;
 pub fn register(registry: &mut Registry) {
     registry.process::<SlopeAreaErosion>();
     registry.process::<WaterColumn>().process::<HydraulicErosion>();
+    registry.process::<AreaMapErosion>();
     registry.metric::<StandingWater>().metric::<Channels>().metric::<FlowDensity>();
 }

@@ -28,7 +28,8 @@ pub fn registry() -> Registry {
         .metric::<metrics::SideDimension>()
         .metric::<metrics::Creases>()
         .metric::<metrics::Depressions>()
-        .metric::<metrics::Drainage>();
+        .metric::<metrics::Drainage>()
+        .metric::<metrics::ValleyHeads>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()

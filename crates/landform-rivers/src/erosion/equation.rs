@@ -44,19 +44,22 @@ pub fn erode(
         terms.step(lattice, settings, f, bed, 1.0 / steps);
         fixed.iter().for_each(|&node| bed[node] = before[node]);
     }
-    Ok(change(settings, &before, bed, fixed))
+    Ok(Change::between(&before, bed, settings.uplift_m, fixed))
 }
 
-fn change(settings: &HydraulicErosion, before: &[f64], after: &[f64], fixed: &[usize]) -> Change {
-    let mut uplift = vec![settings.uplift_m; before.len()];
-    fixed.iter().for_each(|&node| uplift[node] = 0.0);
-    let part = |sign: f64| {
-        let parts = before.par_iter().zip(after).zip(&uplift);
-        let part =
-            parts.map(|((before, after), uplift)| (sign * (after - before - uplift)).max(0.0));
-        sum(&part.collect::<Vec<f64>>())
-    };
-    Change { eroded_m: part(-1.0), deposited_m: part(1.0), uplifted_m: sum(&uplift) }
+impl Change {
+    /// What became of a bed under `uplift_m`, but at the nodes of `fixed`.
+    pub(crate) fn between(before: &[f64], after: &[f64], uplift_m: f64, fixed: &[usize]) -> Self {
+        let mut uplift = vec![uplift_m; before.len()];
+        fixed.iter().for_each(|&node| uplift[node] = 0.0);
+        let part = |sign: f64| {
+            let parts = before.par_iter().zip(after).zip(&uplift);
+            let part =
+                parts.map(|((before, after), uplift)| (sign * (after - before - uplift)).max(0.0));
+            sum(&part.collect::<Vec<f64>>())
+        };
+        Self { eroded_m: part(-1.0), deposited_m: part(1.0), uplifted_m: sum(&uplift) }
+    }
 }
 
 /// What the equation needs of the heights around every node.

@@ -63,7 +63,7 @@ fn wear(
 }
 
 /// Books what the bed lost and gained.
-fn book(change: &Change, area_m2: f64, ledger: &mut Ledger) {
+pub(crate) fn book(change: &Change, area_m2: f64, ledger: &mut Ledger) {
     ledger.leave("bed", "erosion", change.eroded_m * area_m2);
     ledger.enter("bed", "deposition by diffusion", change.deposited_m * area_m2);
     if change.uplifted_m > 0.0 {

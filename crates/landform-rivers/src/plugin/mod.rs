@@ -5,6 +5,7 @@ mod fields;
 mod metrics;
 mod water;
 
+pub(crate) use erosion::book;
 pub use fields::{Flow, PipeFlow, Rain};
 pub use metrics::{Channels, FlowDensity, Lakes, StandingWater};
 pub use water::{Source, WaterColumn};
@@ -14,6 +15,6 @@ use landform_sim::parameters::Problem;
 use crate::RiverError;
 
 /// A refusal by the kernels, at the parameter that it is about.
-fn refusal(error: &RiverError, parameter: &str) -> Problem {
+pub(crate) fn refusal(error: &RiverError, parameter: &str) -> Problem {
     Problem::new(parameter, error.to_string(), "")
 }

@@ -7,6 +7,7 @@ mod hypsometry;
 mod shore;
 mod side_dimension;
 mod spectral;
+mod valleys;
 
 pub use creases::Creases;
 pub use depressions::Depressions;
@@ -15,6 +16,7 @@ pub use hypsometry::{FirstCurve, Hypsometry};
 pub use shore::{ShoreDimension, ShoreLevel};
 pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
+pub use valleys::ValleyHeads;
 
 use landform_analysis::grid::Grid;
 use landform_graph::Lattice;
