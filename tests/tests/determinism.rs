@@ -125,7 +125,7 @@ const GOLDEN: &[Case] = &[
     ),
     case("WaterColumn(algorithm: Hydrostatic())", &[HILLS, LAKE], ISLAND, 0x82b6_0a96_5e1c_1209),
     case("WaterColumn(), HydraulicErosion()", &[HILLS, LAKE], PLATE, 0x8c9e_9989_1257_8a5f),
-    case("AreaMapErosion()", &[HILLS], PLATE, 0x0),
+    case("AreaMapErosion()", &[HILLS], PLATE, 0x83e3_302c_0d21_90ed),
     case(
         "HydraulicErosion(diffusion: Everywhere, diffusion_m2: 0.5, uplift_m: 0.1)",
         &[HILLS, FLOW],

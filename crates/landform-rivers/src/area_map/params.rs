@@ -42,8 +42,8 @@ pub struct AreaMapErosion {
     /// Exponent m of the area.
     #[schemars(range(min = 0.0, max = 3.0), extend("x-source" = "thesis 4.3.1: 0.5"))]
     pub area_exponent: f64,
-    /// Exponent n of the slope.
-    #[schemars(range(min = 0.1, max = 5.0), extend("x-source" = "thesis 4.3.1: close to 1"))]
+    /// Exponent n of the slope. Below 1 changes would run ever faster over ever gentler slopes.
+    #[schemars(range(min = 1.0, max = 5.0), extend("x-source" = "thesis 4.3.1: close to 1"))]
     pub slope_exponent: f64,
     /// Threshold theta of area and slope below which streams do not erode.
     #[schemars(range(min = 0.0, max = 1e9), extend("x-source" = "thesis 4.3.1: 0"))]

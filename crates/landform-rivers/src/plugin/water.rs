@@ -137,7 +137,7 @@ impl Process for WaterColumn {
     const NAME: &'static str = "WaterColumn";
 
     fn declare(&self, uses: &mut Declaration) {
-        uses.reads::<Bed>()
+        uses.reads_or_zero::<Bed>()
             .reads_or_zero::<Rain>()
             .writes::<Water>()
             .writes::<Flow>()
