@@ -1,5 +1,5 @@
-//! Coasts as images (thesis, appendix B): the device that a scenario chooses, and what the first
-//! form of land leaves in the coast.
+//! Coasts as images (thesis, appendix B): the device that a scenario chooses, the equations in real
+//! numbers, and what the first form of land leaves in the coast.
 
 use landform::coast::image::{ImageCoast, ImageCoastSettings};
 use landform::sim::random::RandomStream;
@@ -112,4 +112,72 @@ fn the_first_form_of_land_shows_in_the_coast() {
         println!("seed {seed}: {round:.3} from a disc, {edged:.3} from a square");
         assert!(round < -0.2 && edged > 0.3, "{round} {edged}");
     }
+}
+
+/// Lengths of shore of 4 x 4 tiles over their side, in real numbers.
+fn tile_lengths(land: &[u8], side: usize) -> [[f64; 4]; 4] {
+    let mut lengths = [[0.0; 4]; 4];
+    let tile = side / 4;
+    for y in 0..side - 1 {
+        for x in 0..side - 1 {
+            let at = |x: usize, y: usize| land[y * side + x];
+            let [nw, ne, sw, se] = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+            let length = match nw + ne + sw + se {
+                1 | 3 => 0.5_f64.sqrt(),
+                2 if nw == se => 2.0_f64.sqrt(),
+                2 => 1.0,
+                _ => 0.0,
+            };
+            lengths[y / tile][x / tile] += length / tile as f64;
+        }
+    }
+    lengths
+}
+
+/// The nodes that fall by equation 4.2 and the weakening by shares, in real numbers.
+fn falling(land: &[u8], rock: &[f64], side: usize, [force, g]: [f64; 2]) -> Vec<usize> {
+    let lengths = tile_lengths(land, side);
+    let between = |at: usize| {
+        let place = ((at as f64 + 0.5) / (side as f64 / 4.0) - 0.5).clamp(0.0, 3.0);
+        let tile = (place as usize).min(2);
+        (tile, place - tile as f64)
+    };
+    let falls = |&node: &usize| {
+        let [x, y] = [node % side, node / side];
+        let beside = [(x.wrapping_sub(1), y), (x + 1, y), (x, y.wrapping_sub(1)), (x, y + 1)];
+        let at_sea = |&&(x, y): &&(usize, usize)| x < side && y < side && land[y * side + x] == 0;
+        let bare = beside.iter().filter(at_sea).count() as f64;
+        let ((column, east), (row, south)) = (between(x), between(y));
+        let along =
+            |row: usize| lengths[row][column] * (1.0 - east) + lengths[row][column + 1] * east;
+        let length = along(row) * (1.0 - south) + along(row + 1) * south;
+        bare > 0.0 && rock[node] * (1.0 - bare / 4.0) < force / (1.0 + g * length)
+    };
+    (0..land.len()).filter(|&node| land[node] > 0).filter(falls).collect()
+}
+
+/// Whole numbers follow the equations: in a run to rest hardly a node falls otherwise.
+#[test]
+fn whole_numbers_follow_the_equations() {
+    let (side, settings) = (256, ImageCoastSettings::default());
+    let inside = |at: usize| (16..side - 16).contains(&at);
+    let mut land: Vec<u8> =
+        (0..side * side).map(|node| u8::from(inside(node % side) && inside(node / side))).collect();
+    let random = RandomStream::new(1, "rock");
+    let rock: Vec<f64> = (0..side * side).map(|node| random.unit(0, node, 0)).collect();
+    let mut coast = ImageCoast::new([side; 2], settings, &rock).expect("a coast");
+    let (mut all, mut otherwise) = (0, 0);
+    loop {
+        let before = land.clone();
+        let expected = falling(&before, &rock, side, [settings.force, settings.attenuation]);
+        let fallen = coast.step(&mut land).expect("a step");
+        let agreed = expected.iter().filter(|&&node| land[node] == 0).count();
+        otherwise += fallen + expected.len() - 2 * agreed;
+        all += fallen;
+        if fallen == 0 {
+            break;
+        }
+    }
+    println!("{otherwise} of {all} nodes fell otherwise");
+    assert!(all > 5000 && otherwise <= all / 1000, "{otherwise} of {all}");
 }

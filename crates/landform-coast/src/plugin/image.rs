@@ -39,8 +39,8 @@ pub struct ImageCoastErosion {
     pub offset: u32,
     /// How rock resists the less, the more of its four sides lie bare.
     pub weakening: Weakening,
-    /// What computes it: the same land, bit for bit. `Graphics` is the first graphics processor
-    /// that Vulkan, Metal, DirectX 12 or OpenGL offers; the program must be built with
+    /// What computes it: the same land, bit for bit. `Graphics` is the best graphics processor that
+    /// Vulkan, Metal, DirectX 12 or OpenGL offers; the program must be built with
     /// `--features gpu`.
     pub device: CoastDevice,
 }

@@ -14,8 +14,8 @@ pub enum CoastDevice {
     /// The processor, on all threads of the run.
     #[default]
     Processor,
-    /// A graphics processor: the first that Vulkan, Metal, DirectX 12 or OpenGL offers, one in
-    /// software included. For programs that are built with `--features gpu`.
+    /// A graphics processor: the best that Vulkan, Metal, DirectX 12 or OpenGL offers, one in
+    /// software if there is no other. For programs that are built with `--features gpu`.
     Graphics,
 }
 

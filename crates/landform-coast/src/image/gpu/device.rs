@@ -47,19 +47,15 @@ pub(super) struct Device {
     pub(super) queue: wgpu::Queue,
 }
 
-/// The first device that Vulkan, Metal, DirectX 12 or OpenGL offers, and its name, when it can hold
-/// fields of `bytes`.
+/// The best device that Vulkan, Metal, DirectX 12 or OpenGL offers, and its name, when it can hold
+/// fields of `bytes`. Devices of their own come before those of a processor, and software last.
 fn find(bytes: u64) -> Result<(wgpu::Adapter, String), GpuError> {
-    let reach = |backends| {
-        let interfaces = wgpu::InstanceDescriptor {
-            backends,
-            ..wgpu::InstanceDescriptor::new_without_display_handle()
-        };
-        let instance = wgpu::Instance::new(interfaces);
-        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let best = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
     };
-    // OpenGL comes last: finding out that it is there takes longest.
-    let adapter = reach(wgpu::Backends::PRIMARY).or_else(|_| reach(wgpu::Backends::all()));
+    let adapter = pollster::block_on(instance.request_adapter(&best));
     let adapter = adapter.map_err(|error| GpuError::NoDevice(error.to_string()))?;
     let (info, limits) = (adapter.get_info(), adapter.limits());
     let name = format!("{} ({})", info.name, info.backend);

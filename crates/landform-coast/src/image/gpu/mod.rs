@@ -16,8 +16,8 @@ use work::{BATCH, Fallen, Work};
 /// A coast as an image on a graphics processor: the same land as
 /// [`ImageCoast`](super::ImageCoast), bit for bit.
 ///
-/// wgpu runs it on Vulkan, Metal, DirectX 12 or OpenGL, whatever is found first, devices that
-/// exist in software only included.
+/// wgpu runs it on Vulkan, Metal, DirectX 12 or OpenGL: on a device of its own if there is one, on
+/// one that exists in software only if there is no other.
 #[derive(Debug)]
 pub struct GpuCoast {
     work: Work,
@@ -39,7 +39,7 @@ impl GpuCoast {
         Device::check(Work::bytes(size))
     }
 
-    /// Hands a coast to the first device that is found: an image of `size` columns and rows with a
+    /// Hands a coast to the best device that is found: an image of `size` columns and rows with a
     /// `resistance` of 0 to 1 a pixel.
     ///
     /// # Errors
