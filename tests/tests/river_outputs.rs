@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use landform_tests::{Program, Scratch};
+use landform_tests::{Program, Scratch, repository};
 use serde_json::Value;
 
 /// A valley that falls to the south, with a lake in a bowl of the plain beside it; no water moves.
@@ -111,4 +111,29 @@ fn rivers_flow_into_one_another_and_out_of_the_map() {
         dry.lines().next(),
         Some("line,river,into,order,length_m,area_m2,width_m,depth_m,x,y")
     );
+}
+
+/// Figure 4.14 at half its size: what the metric counts, the table lists.
+#[test]
+fn captures_are_counted_and_listed() {
+    let scratch = Scratch::new("captures");
+    let scenario = repository().join("scenarios/thesis/fig_4_14.ron");
+    let run = Program::within(scratch.folder()).args(["run", "-o", "o", "--quiet"]);
+    let small = ["--set", "domain.size=(64, 64)", "--set", "metrics[2].channel_nodes=40"];
+    let listed = ["--set", "outputs[1].channel_nodes=40"];
+    run.args([scenario]).args(small).args(listed).run().good();
+    let report = fs::read_to_string(scratch.path("o/report.json")).expect("a report");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let counted = report["metrics"]["captures"].as_f64().expect("a number");
+    let table = fs::read_to_string(scratch.path("o/captures.csv")).expect("a table");
+    let mut rows = table.lines();
+    assert_eq!(rows.next(), Some("iteration,x,y,area_m2,from,to"));
+    let rows: Vec<Vec<f64>> = rows
+        .map(|row| row.split(',').map(|cell| cell.parse().expect("a number")).collect())
+        .collect();
+    assert!(counted > 0.0);
+    assert_eq!(rows.len() as f64, counted);
+    for row in &rows {
+        assert!(row[0] % 10.0 == 0.0 && row[3] >= 4000.0 && row[4] != row[5], "{row:?}");
+    }
 }

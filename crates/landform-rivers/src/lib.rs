@@ -9,6 +9,7 @@
 //! from, with the area that a node drains in place of flow.
 
 pub mod area_map;
+pub mod captures;
 pub mod erosion;
 mod error;
 mod frame;
@@ -21,7 +22,8 @@ pub use area_map::AreaMapErosion;
 pub use erosion::HydraulicErosion;
 pub use error::RiverError;
 pub use plugin::{
-    Channels, Flow, FlowDensity, Lakes, PipeFlow, Rain, Source, StandingWater, WaterColumn,
+    Channels, Flow, FlowDensity, Lakes, PipeFlow, Rain, Source, StandingWater, TributaryCaptures,
+    WaterColumn,
 };
 pub use slope_area::{DrainageArea, ErodingSites, Pits, SlopeAreaErosion};
 
@@ -33,4 +35,5 @@ pub fn register(registry: &mut Registry) {
     registry.process::<WaterColumn>().process::<HydraulicErosion>();
     registry.process::<AreaMapErosion>();
     registry.metric::<StandingWater>().metric::<Channels>().metric::<FlowDensity>();
+    registry.metric::<TributaryCaptures>();
 }

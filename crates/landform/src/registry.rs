@@ -41,6 +41,7 @@ pub fn registry() -> Registry {
         .output::<outputs::LevelLines>()
         .output::<outputs::RiverLines>()
         .output::<outputs::LakeOutlines>()
+        .output::<outputs::CaptureTable>()
         .output::<outputs::IslandTable>()
         .output::<outputs::Mesh>();
     registry

@@ -7,7 +7,7 @@ mod water;
 
 pub(crate) use erosion::book;
 pub use fields::{Flow, PipeFlow, Rain};
-pub use metrics::{Channels, FlowDensity, Lakes, StandingWater};
+pub use metrics::{Channels, FlowDensity, Lakes, StandingWater, TributaryCaptures};
 pub use water::{Source, WaterColumn};
 
 use landform_sim::parameters::Problem;

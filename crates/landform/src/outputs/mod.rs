@@ -3,6 +3,7 @@
 mod agent_map;
 mod agent_table;
 mod animation;
+mod capture_table;
 mod field_file;
 mod field_series;
 mod island_table;
@@ -19,6 +20,7 @@ mod series_file;
 pub use agent_map::{AgentMap, DrawnGroup, LowNodes};
 pub use agent_table::AgentTable;
 pub use animation::Animation;
+pub use capture_table::CaptureTable;
 pub use field_file::FieldFile;
 pub use field_series::FieldSeries;
 pub use island_table::IslandTable;

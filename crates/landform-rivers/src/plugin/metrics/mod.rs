@@ -1,9 +1,11 @@
 //! Metrics of water and of its channels.
 
+mod captures;
 mod channels;
 mod flow_density;
 mod standing_water;
 
+pub use captures::TributaryCaptures;
 pub use channels::Channels;
 pub use flow_density::FlowDensity;
 pub use standing_water::{Lakes, StandingWater};
