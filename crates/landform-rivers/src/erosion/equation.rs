@@ -22,7 +22,8 @@ pub struct Change {
 }
 
 /// Erodes `bed` (elevation, metres) for an iteration with flow `f` ([`super::flow_map`]); the nodes
-/// of `fixed` keep their height.
+/// of `fixed` keep their height, and those below the level of a sea. To the land around it the sea
+/// is ground at its level.
 ///
 /// # Errors
 /// [`RiverError::Length`]; see [`HydraulicErosion::check`].
@@ -39,12 +40,18 @@ pub fn erode(
     let before = bed.to_vec();
     let largest = f.par_iter().copied().reduce(|| 0.0, f64::max);
     let steps = settings.steps(lattice, largest);
+    let sea = settings.sea_level_m.unwrap_or(f64::NEG_INFINITY);
+    let at_sea = (0..bed.len()).filter(|&node| before[node] < sea);
+    let kept: Vec<usize> = fixed.iter().copied().chain(at_sea).collect();
     let mut terms = Terms::new(lattice)?;
+    bed.iter_mut().for_each(|height| *height = height.max(sea));
     for _ in 0..steps as usize {
         terms.step(lattice, settings, f, bed, 1.0 / steps);
-        fixed.iter().for_each(|&node| bed[node] = before[node]);
+        kept.iter().for_each(|&node| bed[node] = before[node]);
+        bed.iter_mut().for_each(|height| *height = height.max(sea));
     }
-    Ok(Change::between(&before, bed, settings.uplift_m, fixed))
+    kept.iter().for_each(|&node| bed[node] = before[node]);
+    Ok(Change::between(&before, bed, settings.uplift_m, &kept))
 }
 
 impl Change {

@@ -77,6 +77,9 @@ pub struct HydraulicErosion {
     /// Borders whose nodes keep their height: the level to which rivers erode.
     #[schemars(extend("x-source" = "thesis, figure 4.15: ground beside still water"))]
     pub base_level: Vec<Side>,
+    /// Level of a sea: ground below it keeps its height, and land is not worn below it.
+    #[schemars(range(min = -1e6, max = 1e6), extend("x-unit" = "m"))]
+    pub sea_level_m: Option<f64>,
 }
 
 impl Default for HydraulicErosion {
@@ -93,6 +96,7 @@ impl Default for HydraulicErosion {
             avalanche_fraction: 0.02,
             avalanche_radius_m: 100.0,
             base_level: Vec::new(),
+            sea_level_m: None,
         }
     }
 }

@@ -255,3 +255,30 @@ fn settings_that_do_not_suit_the_lattice_are_refused() {
     let short = erode(&lattice, &HydraulicErosion::default(), &[0.0; 16], &mut [0.0; 9], &[]);
     assert_eq!(short, Err(RiverError::Length { name: "bed", found: 9, expected: 16 }));
 }
+
+/// A beach: land falls into a sea, whose floor keeps its form, and is not worn below it.
+#[test]
+fn land_is_not_worn_below_the_sea_nor_its_floor_at_all() {
+    let open = [Boundary::Open; 2];
+    let lattice = Lattice::plane([24, 16], 10.0, Connectivity::Eight, open).unwrap();
+    let bed: Vec<f64> = (0..384).map(|node| (node % 24) as f64 - 7.5).collect();
+    let settings = HydraulicErosion {
+        sea_level_m: Some(0.0),
+        incision_m: 30.0,
+        bed_erosion_m: 30.0,
+        ..Default::default()
+    };
+    let mut eroded = bed.clone();
+    for _ in 0..20 {
+        let change = erode(&lattice, &settings, &[1.0; 384], &mut eroded, &[]).unwrap();
+        let lost: f64 = change.eroded_m - change.deposited_m;
+        assert!(lost >= 0.0);
+    }
+    for (after, before) in eroded.iter().zip(&bed) {
+        match *before < 0.0 {
+            true => assert_eq!(after, before),
+            false => assert!((0.0..=*before).contains(after), "{before} became {after}"),
+        }
+    }
+    assert!(eroded[23] < 1.0, "all land is low");
+}

@@ -54,6 +54,9 @@ pub struct WaterColumn {
     /// Borders over which water leaves: all that reaches them does. The others are walls. Every open
     /// border when missing.
     pub outlets: Option<Vec<Side>>,
+    /// Level of a sea: water that reaches ground below it is gone.
+    #[schemars(range(min = -1e6, max = 1e6), extend("x-unit" = "m"))]
+    pub sea_level_m: Option<f64>,
     /// Share of the water that an iteration loses to ground and air.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-source" = "chosen: see the calibration of rivers"))]
     pub loss: f64,
@@ -83,6 +86,7 @@ impl Default for WaterColumn {
             sources: Vec::new(),
             sinks: Vec::new(),
             outlets: None,
+            sea_level_m: None,
             loss: 0.02,
         }
     }
@@ -255,6 +259,11 @@ impl WaterWorks {
         for (nodes, depth_m) in &openings.sources {
             book.enter("sources", columns.feed(nodes, *depth_m));
         }
+        let sea = settings.sea_level_m.unwrap_or(f64::NEG_INFINITY);
+        let sea: Vec<usize> =
+            (0..fields.bed.len()).filter(|&node| fields.bed[node] < sea).collect();
+        // Rain on the sea runs nowhere.
+        book.enter("sea", -columns.drain(&sea));
         for _ in 0..settings.sweeps {
             sweeper.sweep(columns, pipes)?;
             for (side, nodes) in &openings.outlets {
@@ -263,6 +272,7 @@ impl WaterWorks {
             for nodes in &openings.sinks {
                 book.enter("sinks", -columns.drain(nodes));
             }
+            book.enter("sea", -columns.drain(&sea));
         }
         book.enter("losses", -columns.lose(settings.loss));
         book.enter("rounding", columns.finish(fields.water, flow));
