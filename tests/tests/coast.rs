@@ -114,7 +114,7 @@ fn what_cannot_erode_is_refused_with_a_reason() {
             "nothing provides field `resistance`",
         ),
         ("amplitude_m: 0.5", "amplitude_m: 5.0", "at least 0"),
-        ("radius_m: 150.0", "radius_m: 12.0", "between 15 and 13000 m"),
+        ("radius_m: 150.0", "radius_m: 12.0", "between 15 and 9500 m"),
         ("force: 0.5", "regions: [(place: Sides([]))]", "region 0 names no part of the map"),
         ("connectivity: Four", "boundary: (Periodic, Periodic), connectivity: Fore", "Four"),
     ] {
