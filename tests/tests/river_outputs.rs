@@ -113,6 +113,40 @@ fn rivers_flow_into_one_another_and_out_of_the_map() {
     );
 }
 
+/// Rough ground has junctions on its edge too.
+#[test]
+fn every_river_flows_into_one_of_the_file_or_leaves() {
+    let scratch = Scratch::new("rivers");
+    scratch.write(
+        "rough.ron",
+        r#"(
+        title: "Rough ground",
+        seed: 3,
+        domain: Grid(size: (60, 50), spacing_m: 10.0, connectivity: Eight),
+        initial: [(field: "bed", from: WhiteNoise(amplitude_m: 5.0))],
+        stages: [],
+        outputs: [RiverLines(file: "rivers.geojson", channel_nodes: 4)],
+    )"#,
+    );
+    Program::within(scratch.folder()).line("run rough.ron -o o --quiet").run().good();
+    let rivers = features(&scratch, "rivers.geojson");
+    let numbers = |name: &str| -> Vec<u64> {
+        let number = |river: &Value| river["properties"][name].as_f64().expect("a number") as u64;
+        rivers.iter().map(number).collect()
+    };
+    let (own, into) = (numbers("river"), numbers("into"));
+    assert!(own.len() > 100);
+    assert!(into.iter().all(|into| *into == 0 || own.contains(into)));
+    // Where one link ends the next begins.
+    for (river, into) in rivers.iter().zip(&into) {
+        let points = |river: &Value| river["geometry"]["coordinates"].as_array().cloned();
+        let end = points(river).and_then(|points| points.last().cloned());
+        if let Some(next) = own.iter().position(|own| own == into) {
+            assert_eq!(end, points(&rivers[next]).and_then(|points| points.first().cloned()));
+        }
+    }
+}
+
 /// Figure 4.14 at half its size: what the metric counts, the table lists.
 #[test]
 fn captures_are_counted_and_listed() {

@@ -126,6 +126,8 @@ impl RiverLines {
         let depth = |cell: usize| ground.depths.as_ref().map_or(0.0, |depths| depths[cell]);
         let wet = wet_cells(&directions, &links, |cell| depth(cell) >= self.least_depth_m);
         let node_m2 = lattice.spacing().powi(2);
+        // A line takes two points: a link of one node at the edge is no more than an end of others.
+        let is_line = |number: usize| links[number].cells.len() > 1;
         let feature = |(number, link): (usize, &StreamLink)| {
             let own = link.own_cells();
             let greatest = |value: &dyn Fn(usize) -> f64| {
@@ -135,7 +137,7 @@ impl RiverLines {
             let point = |&cell: &usize| place.point(grid.position(cell).map(|at| at as f64));
             let mut properties = vec![
                 ("river", (number + 1) as f64),
-                ("into", link.next.map_or(0.0, |next| (next + 1) as f64)),
+                ("into", link.next.filter(|&next| is_line(next)).map_or(0.0, |n| (n + 1) as f64)),
                 ("order", f64::from(link.order)),
                 ("length_m", length_m),
                 ("area_m2", node_m2 * greatest(&|cell| f64::from(cells[cell]))),
@@ -148,8 +150,7 @@ impl RiverLines {
             }
             Feature { geometry: Geometry::Line(link.cells.iter().map(point).collect()), properties }
         };
-        // A line takes two points; a river of one node at the edge has no length.
-        let links = links.iter().enumerate().filter(|(_, link)| link.cells.len() > 1);
+        let links = links.iter().enumerate().filter(|(number, _)| is_line(*number));
         Ok(links.map(feature).collect())
     }
 }
