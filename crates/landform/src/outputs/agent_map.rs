@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::field_file;
 use super::look::{picture_text, problem, write_picture};
+use super::map_place::check_plane;
 
 /// The graph with its agents, before the first iteration and at the end of each stage, side by
 /// side (thesis, figure 4.9): a disc a node in the colour of the group that stands there, and a
@@ -114,10 +115,7 @@ impl Output for AgentMap {
             let message = format!("{} groups are named", self.groups.len());
             return Err(Problem::new("groups", message, format!("at most {MOST_GROUPS}")));
         }
-        if lattice.depth() > 1 {
-            let message = format!("the domain has {} layers", lattice.depth());
-            return Err(Problem::new("", message, "a domain with two sizes"));
-        }
+        check_plane(lattice)?;
         let pixels = lattice.node_count() as f64 * self.pixels_per_node.powi(2);
         if !(1.0..=0.25 * MOST_PIXELS as f64).contains(&pixels) {
             let message = format!("each panel would have {pixels:.0} pixels");

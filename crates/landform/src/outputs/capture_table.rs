@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
-use super::map_place::MapPlace;
+use super::map_place::{MapPlace, check_plane};
 
 /// Every capture of a tributary as comma-separated values: the iteration of the survey that found
 /// it, the place of the captured stream's lowest node, the area that drains through it, and the
@@ -55,11 +55,7 @@ impl Output for CaptureTable {
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         check_file(&self.file, &["csv"])?;
-        if lattice.depth() > 1 {
-            let message = format!("the domain has {} layers", lattice.depth());
-            return Err(Problem::new("", message, "a domain with two sizes"));
-        }
-        Ok(())
+        check_plane(lattice)
     }
 
     fn open(&self) -> Box<dyn Sink> {

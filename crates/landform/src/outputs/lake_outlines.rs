@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
-use super::map_place::MapPlace;
+use super::map_place::{MapPlace, check_plane};
 
 /// Lakes as areas, GeoJSON: depressions of the bed that hold water, with islands in them as holes.
 /// Each has its `lake` number, `area_m2`, `volume_m3`, the mean `level_m` of its water and its
@@ -64,11 +64,7 @@ impl FileOutput for LakeOutlines {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        if lattice.depth() > 1 {
-            let message = format!("the domain has {} layers", lattice.depth());
-            return Err(Problem::new("", message, "a domain with two sizes"));
-        }
-        Ok(())
+        check_plane(lattice)
     }
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
-use super::map_place::MapPlace;
+use super::map_place::{MapPlace, check_plane};
 
 /// The lines along which a field passes through some levels, contours or coasts, with their levels:
 /// as comma-separated values, a point a row with the number of its line, or as GeoJSON, a
@@ -61,10 +61,7 @@ impl FileOutput for LevelLines {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        if lattice.depth() > 1 {
-            let message = format!("the domain has {} layers", lattice.depth());
-            return Err(Problem::new("", message, "a domain with two sizes"));
-        }
+        check_plane(lattice)?;
         match self.levels.iter().position(|level| !level.is_finite()) {
             Some(index) => {
                 let message = format!("the level is {}", self.levels[index]);

@@ -2,9 +2,21 @@
 
 use std::path::Path;
 
+use landform_graph::Lattice;
 use landform_io::{Feature, FeatureSystem, Georeference, IfExists, write_features};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
+
+/// Refuses lattices of several layers, which are no map.
+pub(super) fn check_plane(lattice: &Lattice) -> Result<(), Problem> {
+    match lattice.depth() {
+        1 => Ok(()),
+        layers => {
+            let message = format!("the domain has {layers} layers");
+            Err(Problem::new("", message, "a domain with two sizes"))
+        }
+    }
+}
 
 /// Coordinates of a run's nodes: those of the file that the domain came from, or metres from the
 /// south-western corner.

@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
-use super::map_place::MapPlace;
+use super::map_place::{MapPlace, check_plane};
 
 /// The river network of a field of heights as lines between junctions, GeoJSON or comma-separated
 /// values. Rivers follow the steepest ways down the surface, over depressions filled to their
@@ -85,11 +85,7 @@ impl FileOutput for RiverLines {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
-        if lattice.depth() > 1 {
-            let message = format!("the domain has {} layers", lattice.depth());
-            return Err(Problem::new("", message, "a domain with two sizes"));
-        }
-        Ok(())
+        check_plane(lattice)
     }
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
