@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use landform::io::read_raster;
 use landform_tests::{Program, Scratch, repository};
 use serde_json::Value;
 
@@ -145,6 +146,46 @@ fn every_river_flows_into_one_of_the_file_or_leaves() {
             assert_eq!(end, points(&rivers[next]).and_then(|points| points.first().cloned()));
         }
     }
+}
+
+/// A slope that runs on below a sea: rain leaves the land for it, and its floor stays.
+#[test]
+fn water_that_reaches_the_sea_is_gone_and_its_floor_stays() {
+    let scratch = Scratch::new("sea");
+    let slope = "initial: [(field: \"bed\", from: Ramp(tilt_deg: 10.0, uphill_deg: 90.0)), \
+                 (field: \"bed\", combine: Add, from: Uniform(value: -20.0))]";
+    scratch.write(
+        "sea.ron",
+        format!(
+            "(title: \"Sea\", seed: 1, domain: Grid(size: (24, 40), spacing_m: 10.0, \
+         connectivity: Eight), {slope}, stages: [(name: \"rain\", processes: [\
+         WaterColumn(sea_level_m: 0.0, outlets: [], loss: 0.0), \
+         HydraulicErosion(sea_level_m: 0.0)], stop: Iterations(30))], \
+         outputs: [FieldFile(file: \"start.npy\", field: \"bed\", when: Start)])"
+        ),
+    );
+    Program::within(scratch.folder()).line("run sea.ron -o o --quiet").run().good();
+    let field = |file: &str| read_raster(scratch.path("o").join(file)).expect("a field").values;
+    let (start, bed, water) =
+        (field("start.npy"), field("fields/bed.npy"), field("fields/water.npy"));
+    let at_sea = |node: &usize| start[*node] < 0.0;
+    assert!((0..960).filter(at_sea).count() > 100);
+    for node in 0..960 {
+        if at_sea(&node) {
+            assert_eq!((bed[node], water[node]), (start[node], 0.0));
+        } else {
+            assert!(bed[node] >= 0.0);
+        }
+    }
+    assert!(bed.iter().zip(&start).any(|(bed, start)| bed < start), "land is eroded");
+    let report = fs::read_to_string(scratch.path("o/report.json")).expect("a report");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let account = &report["ledger"]["accounts"]["water"];
+    let [rain, sea] = [&account["entered"]["rain"], &account["left"]["sea"]]
+        .map(|amount| amount.as_f64().expect("a volume"));
+    let held = 100.0 * water.iter().sum::<f64>();
+    assert!(sea > 0.5 * rain, "{account}");
+    assert!((rain - sea - held).abs() < 1e-9 * rain, "{account}");
 }
 
 /// Figure 4.14 at half its size: what the metric counts, the table lists.

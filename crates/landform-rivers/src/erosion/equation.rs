@@ -40,15 +40,20 @@ pub fn erode(
     let before = bed.to_vec();
     let largest = f.par_iter().copied().reduce(|| 0.0, f64::max);
     let steps = settings.steps(lattice, largest);
-    let sea = settings.sea_level_m.unwrap_or(f64::NEG_INFINITY);
-    let at_sea = (0..bed.len()).filter(|&node| before[node] < sea);
-    let kept: Vec<usize> = fixed.iter().copied().chain(at_sea).collect();
+    let sea = settings.sea_level_m;
+    let at_sea = |node: &usize| sea.is_some_and(|sea| before[*node] < sea);
+    let kept: Vec<usize> = fixed.iter().copied().chain((0..bed.len()).filter(at_sea)).collect();
+    let cover = |bed: &mut [f64]| {
+        if let Some(sea) = sea {
+            bed.iter_mut().for_each(|height| *height = height.max(sea));
+        }
+    };
     let mut terms = Terms::new(lattice)?;
-    bed.iter_mut().for_each(|height| *height = height.max(sea));
+    cover(bed);
     for _ in 0..steps as usize {
         terms.step(lattice, settings, f, bed, 1.0 / steps);
         kept.iter().for_each(|&node| bed[node] = before[node]);
-        bed.iter_mut().for_each(|height| *height = height.max(sea));
+        cover(bed);
     }
     kept.iter().for_each(|&node| bed[node] = before[node]);
     Ok(Change::between(&before, bed, settings.uplift_m, &kept))

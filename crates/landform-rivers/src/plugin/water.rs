@@ -259,9 +259,9 @@ impl WaterWorks {
         for (nodes, depth_m) in &openings.sources {
             book.enter("sources", columns.feed(nodes, *depth_m));
         }
-        let sea = settings.sea_level_m.unwrap_or(f64::NEG_INFINITY);
-        let sea: Vec<usize> =
-            (0..fields.bed.len()).filter(|&node| fields.bed[node] < sea).collect();
+        let sea: Vec<usize> = settings.sea_level_m.map_or_else(Vec::new, |level_m| {
+            (0..fields.bed.len()).filter(|&node| fields.bed[node] < level_m).collect()
+        });
         // Rain on the sea runs nowhere.
         book.enter("sea", -columns.drain(&sea));
         for _ in 0..settings.sweeps {
