@@ -9,6 +9,7 @@
 //! | grey `.png` ([`png16`]) | 8 and 16 bits | 16 bits | the file |
 //! | bare f32 `.raw` ([`raw`]) | no | yes | a sidecar |
 //! | NetCDF `.nc`, series of fields ([`netcdf`]) | no | f64 | the file |
+//! | VTK image data `.vti`, planes and volumes ([`vtk`]) | no | f64 | the file |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
 //! | CSV `.csv`, GeoJSON `.geojson` ([`lines`]) | lines | no | - |
 //!
@@ -56,6 +57,7 @@ mod sample;
 #[path = "../tests/support/mod.rs"]
 mod scratch;
 mod stored;
+pub mod vtk;
 
 pub use atomic::{IfExists, write_atomically};
 pub use error::{Fault, IoError, Place};

@@ -13,7 +13,7 @@ pub(crate) use chosen::reading;
 
 use serde_json::Value;
 
-use crate::domain::{DomainSource, Grid};
+use crate::domain::{DomainSource, Grid, Volume};
 use crate::initial::InitialCondition;
 use crate::metric::Metric;
 use crate::output::Output;
@@ -103,10 +103,10 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// A registry with what the framework itself offers: the domain [`Grid`].
+    /// A registry with what the framework itself offers: the domains [`Grid`] and [`Volume`].
     pub fn new() -> Self {
         let mut registry = Self::default();
-        registry.domain::<Grid>();
+        registry.domain::<Grid>().domain::<Volume>();
         registry
     }
 

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use landform_io::{Georeference, IfExists, Metadata, Raster, write_raster};
+use landform_graph::Lattice;
+use landform_io::{
+    Georeference, IfExists, IoError, Metadata, Raster, SampleType, npy, vtk, write_raster,
+};
 use landform_sim::field::FieldEntry;
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
@@ -11,7 +14,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A field as a raster: GeoTIFF (`.tif`), ESRI ASCII (`.asc`), NumPy (`.npy`), 16-bit grey
-/// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it.
+/// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it; or as
+/// VTK image data (`.vti`). Volumes are written as `.npy` (layers, rows, columns) or `.vti`.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FieldFile {
@@ -31,9 +35,9 @@ impl Default for FieldFile {
 
 /// Extensions of the raster formats that can be written.
 #[cfg(not(feature = "exr"))]
-const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw"];
+const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw", "vti"];
 #[cfg(feature = "exr")]
-const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw", "exr"];
+const EXTENSIONS: &[&str] = &["tif", "tiff", "asc", "npy", "png", "raw", "vti", "exr"];
 
 impl FileOutput for FieldFile {
     const NAME: &'static str = "FieldFile";
@@ -48,11 +52,48 @@ impl FileOutput for FieldFile {
         vec![self.field.clone()]
     }
 
+    fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        if lattice.depth() == 1 || extension(&self.file) == "npy" || extension(&self.file) == "vti"
+        {
+            return Ok(());
+        }
+        let message = format!("`{}` is a format of maps", self.file.display());
+        Err(Problem::new(
+            "file",
+            message,
+            "one that ends in .npy or .vti, as the domain is a volume",
+        ))
+    }
+
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
         let (values, entry) = values(snapshot, &self.field)?;
-        let raster = raster_of(snapshot, values);
-        write_raster(path, &raster, &metadata(snapshot, entry), IfExists::Replace)
+        write_field(path, snapshot, values, entry)
             .map_err(|error| Problem::new("file", error.to_string(), ""))
+    }
+}
+
+fn extension(file: &Path) -> String {
+    file.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
+/// Writes the values of a field in the format of the file's extension.
+pub(crate) fn write_field(
+    path: &Path,
+    snapshot: &Snapshot<'_>,
+    values: Vec<f64>,
+    entry: &FieldEntry,
+) -> Result<(), IoError> {
+    let metadata = metadata(snapshot, entry);
+    let lattice = snapshot.lattice();
+    let [width, height, layers] = lattice.size();
+    if extension(path) == "vti" {
+        let spacing = lattice.spacing();
+        vtk::write_image_data(path, lattice.size(), spacing, &values, &metadata, IfExists::Replace)
+    } else if layers > 1 {
+        let shape = [layers, height, width];
+        npy::write_array(path, &shape, &values, &metadata, SampleType::F64, IfExists::Replace)
+    } else {
+        write_raster(path, &raster_of(snapshot, values), &metadata, IfExists::Replace)
     }
 }
 
@@ -68,7 +109,7 @@ pub(super) fn values<'a>(
 }
 
 /// The values of a field of the run as a raster in its place on Earth, or at the origin.
-pub(crate) fn raster_of(snapshot: &Snapshot<'_>, values: Vec<f64>) -> Raster {
+pub(super) fn raster_of(snapshot: &Snapshot<'_>, values: Vec<f64>) -> Raster {
     let lattice = snapshot.lattice();
     let [width, height, _] = lattice.size();
     let mut raster = Raster::local(width, height, lattice.spacing(), values);
@@ -80,7 +121,7 @@ pub(crate) fn raster_of(snapshot: &Snapshot<'_>, values: Vec<f64>) -> Raster {
 }
 
 /// What goes with the values of a field into a file.
-pub(crate) fn metadata(snapshot: &Snapshot<'_>, entry: &FieldEntry) -> Metadata {
+pub(super) fn metadata(snapshot: &Snapshot<'_>, entry: &FieldEntry) -> Metadata {
     let clock = snapshot.clock();
     let mut metadata = Metadata {
         title: Some(snapshot.title().to_owned()),

@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
+use super::map_place::check_plane;
 
 /// A field of heights as a triangle mesh with colours: glTF (`.glb`), `.obj`, `.ply`, `.stl`.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +55,7 @@ impl FileOutput for Mesh {
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         colour_map(&self.colours)?;
+        check_plane(lattice)?;
         let [width, height, _] = lattice.size();
         match width.min(height) {
             0 | 1 => {

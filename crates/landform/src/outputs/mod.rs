@@ -34,6 +34,6 @@ pub use picture::Picture;
 pub use river_lines::RiverLines;
 pub use series_file::SeriesFile;
 
-pub(crate) use field_file::{metadata, raster_of};
+pub(crate) use field_file::write_field;
 pub(crate) use look::Subject;
 pub(crate) use mesh::write_mesh;

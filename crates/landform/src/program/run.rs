@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use landform_io::{IfExists, write_raster};
 use landform_sim::checkpoint::Checkpoint;
 use landform_sim::output::OutputFile;
 use landform_sim::registry::Registry;
@@ -15,7 +14,7 @@ use super::checkpoint_file::{self, Claim, FileKeeper};
 use super::progress_bar::Bar;
 use super::resume::{self, Rest};
 use super::{Failure, Outcome, folder, interrupt, memory, talk};
-use crate::outputs::{SeriesFile, metadata, raster_of};
+use crate::outputs::{SeriesFile, write_field};
 
 /// Runs the scenario of the arguments.
 pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome {
@@ -166,19 +165,12 @@ fn finish(simulation: &Simulation, folder: &Path, report: &mut Report) -> Result
     let fields = folder.join("fields");
     std::fs::create_dir_all(&fields)
         .map_err(|error| format!("cannot make {}: {error}", fields.display()))?;
-    if snapshot.lattice().depth() == 1 {
-        for entry in snapshot.fields() {
-            let file = format!("fields/{}.npy", entry.name);
-            let raster = raster_of(&snapshot, snapshot.field(entry.name).unwrap_or_default());
-            write_raster(
-                folder.join(&file),
-                &raster,
-                &metadata(&snapshot, entry),
-                IfExists::Replace,
-            )
+    for entry in snapshot.fields() {
+        let file = format!("fields/{}.npy", entry.name);
+        let values = snapshot.field(entry.name).unwrap_or_default();
+        write_field(&folder.join(&file), &snapshot, values, entry)
             .map_err(|error| error.to_string())?;
-            keep(&file, "field");
-        }
+        keep(&file, "field");
     }
     keep(SeriesFile::NAME, "series");
     keep("scenario.ron", "scenario");

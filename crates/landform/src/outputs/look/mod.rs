@@ -1,10 +1,11 @@
-//! How a field is drawn: as a map under light, in perspective, as flat colours, as a spectrum, as a
-//! hypsometric curve.
+//! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice of a
+//! volume, as a spectrum, as a hypsometric curve.
 
 mod flat;
 mod hypsometry;
 mod perspective;
 mod relief;
+mod slice;
 mod subject;
 mod text;
 
@@ -12,6 +13,7 @@ pub use flat::{Density, DensityAxes, Flat};
 pub use hypsometry::Curve;
 pub use perspective::Perspective;
 pub use relief::Relief;
+pub use slice::Slice;
 pub use subject::WaterDepths;
 
 pub(crate) use subject::Subject;
@@ -33,6 +35,8 @@ pub enum Look {
     Perspective(Perspective),
     /// Colours by value, without light.
     Flat(Flat),
+    /// A layer of a volume in colours by value.
+    Slice(Slice),
     /// The spectral density of the field.
     Spectrum(Density),
     /// The hypsometric curve of the field.
@@ -48,6 +52,9 @@ impl Default for Look {
 impl Look {
     /// Draws what it shows of a field of `lattice`.
     pub(crate) fn draw(&self, lattice: &Lattice, subject: &Subject) -> Result<Image, ViewError> {
+        if let Self::Slice(slice) = self {
+            return slice.draw(lattice, &subject.values, &subject.unit);
+        }
         let size = [lattice.width(), lattice.height()];
         let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
         self.picture(size, lattice.spacing(), periodic, subject)
@@ -71,6 +78,8 @@ impl Look {
                 landform_view::perspective::render(&heights()?, &view.options()?)
             }
             Self::Flat(flat) => flat.draw(values, width, height, &subject.unit),
+            // Of a plane there is but one.
+            Self::Slice(slice) => slice.flat().draw(values, width, height, &subject.unit),
             Self::Spectrum(density) => density.draw(values, [width, height]),
             Self::Hypsometry(curve) => curve.draw(values),
         }
@@ -81,7 +90,7 @@ impl Look {
         match self {
             Self::Relief(relief) => relief.water.as_ref(),
             Self::Perspective(view) => view.water.as_ref(),
-            Self::Flat(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
+            Self::Flat(_) | Self::Slice(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
 
@@ -97,7 +106,7 @@ impl Look {
         match self {
             Self::Spectrum(_) => Density::numbers(values, [lattice.width(), lattice.height()]),
             Self::Hypsometry(_) => Curve::numbers(values),
-            Self::Relief(_) | Self::Perspective(_) | Self::Flat(_) => None,
+            Self::Relief(_) | Self::Perspective(_) | Self::Flat(_) | Self::Slice(_) => None,
         }
     }
 
@@ -108,6 +117,9 @@ impl Look {
             Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
             Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
             Self::Hypsometry(curve) => <[usize; 2]>::from(curve.size).map(|size| size as f64),
+            Self::Slice(slice) => {
+                slice.size(lattice).map(|voxels| (voxels * slice.pixels_per_node) as f64)
+            }
             Self::Flat(Flat { pixels_per_node, .. })
             | Self::Spectrum(Density { pixels_per_node, .. }) => {
                 nodes.map(|nodes| nodes * *pixels_per_node as f64)
@@ -117,6 +129,11 @@ impl Look {
         if !(1.0..=MOST_PIXELS as f64).contains(&pixels) {
             let message = format!("the picture would have {width:.0} x {height:.0} pixels");
             return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
+        }
+        let layers = lattice.depth();
+        if layers > 1 && !matches!(self, Self::Slice(_)) {
+            let message = format!("the domain has {layers} layers, and the look shows a map");
+            return Err(Problem::new("look", message, "the look Slice, which shows one of them"));
         }
         let heights = matches!(self, Self::Relief(_) | Self::Perspective(_));
         if heights && lattice.width().min(lattice.height()) < 2 {
@@ -144,6 +161,7 @@ impl Look {
             Self::Relief(relief) => relief.range_m,
             Self::Perspective(view) => view.range_m,
             Self::Flat(flat) => flat.range,
+            Self::Slice(slice) => slice.range,
             Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
@@ -154,6 +172,7 @@ impl Look {
             Self::Relief(relief) => relief.range_m = Some(range),
             Self::Perspective(view) => view.range_m = Some(range),
             Self::Flat(flat) => flat.range = Some(range),
+            Self::Slice(slice) => slice.range = Some(range),
             Self::Spectrum(_) | Self::Hypsometry(_) => {}
         }
         self
