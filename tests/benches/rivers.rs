@@ -2,8 +2,8 @@
 //!
 //! The ground is a spectral fractional Brownian surface (Hurst 0.8) of 10 m cells under rain, which
 //! has flowed for 40 sweeps and stands in its hollows. `copy` writes as many levels as there are
-//! cells: what memory alone costs. With a hundredth of the cells wet, in one block, the time is again
-//! that of a wet cell. Pipes cost the same wet or dry.
+//! cells: what memory alone costs. With one of a hundred basins wet, the time is again that of a
+//! wet cell. Pipes cost the same wet or dry.
 
 mod measure;
 
@@ -83,25 +83,41 @@ fn sweeps(
     pair.print(&name, "copy", reach);
 }
 
-/// A hundredth of the cells wet.
+/// A hundredth of the cells wet: one of a hundred basins that are alike, against all of them.
 fn few_wet(effort: Effort, ground: &(Lattice, Vec<f64>)) {
     let (lattice, bed) = ground;
-    let side = lattice.width();
-    let wet = side / 10;
-    let is_wet = |node: usize| lattice.coordinates(node)[..2].iter().all(|&at| at < wet);
-    let water: Vec<f64> =
-        (0..bed.len()).map(|node| if is_wet(node) { 20.0 } else { 0.0 }).collect();
-    let (mut few, mut sweeper, _) = flooded(ground, &water, Algorithm::Specialised, 0);
-    let (mut all, mut whole, _) =
-        flooded(ground, &vec![20.0; bed.len()], Algorithm::Specialised, 0);
+    let side = lattice.width() / 10;
+    let place = |node: usize| {
+        let [column, row, _] = lattice.coordinates(node);
+        ([column / side, row / side], [column % side, row % side])
+    };
+    // Walls stand on the northern and western side of each basin, and beyond the last ones.
+    let is_wet = |node: usize| {
+        let (basin, within) = place(node);
+        basin.iter().all(|&at| at < 10) && within.iter().all(|&at| at > 0)
+    };
+    let level = |node: usize| match is_wet(node) {
+        true => bed[lattice.node([place(node).1[0], place(node).1[1], 0])],
+        false => 1000.0,
+    };
+    let basins = (lattice.clone(), (0..bed.len()).map(level).collect::<Vec<_>>());
+    let filled = |which: &dyn Fn(usize) -> bool| -> (Columns, Sweeper, usize) {
+        let wet = |node: &usize| is_wet(*node) && which(*node);
+        let depth = |node: usize| if wet(&node) { 20.0 } else { 0.0 };
+        let water: Vec<f64> = (0..bed.len()).map(depth).collect();
+        let (columns, sweeper, _) = flooded(&basins, &water, Algorithm::Specialised, 0);
+        (columns, sweeper, (0..bed.len()).filter(wet).count())
+    };
+    let (mut few, mut sweeper, few_count) = filled(&|node| place(node).0 == [0, 0]);
+    let (mut all, mut whole, all_count) = filled(&|_| true);
     let part = || {
         sweeper.sweep(&mut few, &mut []).expect("flows");
-        wet * wet
+        few_count
     };
     let rest = || {
         whole.sweep(&mut all, &mut []).expect("flows");
-        bed.len()
+        all_count
     };
     let pair = pairs(effort.rounds(5), part, rest);
-    pair.print(&format!("a hundredth wet, {side}x{side}"), "all wet, a wet cell", "1.0");
+    pair.print(&format!("one basin, {0}x{0}", lattice.width()), "a hundred, a wet cell", "1.0");
 }

@@ -24,6 +24,9 @@
 //! # Drainage
 //! [`hydrology`] follows water over a [`grid`](grid::Grid): depressions, flow directions,
 //! contributing areas and their scaling laws. [`derivatives`] measures slope, aspect and curvature.
+//!
+//! # Voxels
+//! [`voxels`] thins sets of voxels to centrelines and sheets, and tells their topology.
 
 mod creases;
 pub mod derivatives;
@@ -42,6 +45,7 @@ mod radial;
 mod spectrum;
 mod summary;
 mod triple_log;
+pub mod voxels;
 
 pub use creases::Creases;
 pub use detrend::{remove_plane, taper};

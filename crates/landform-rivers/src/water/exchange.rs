@@ -23,7 +23,7 @@ use super::sharing::Sharing;
 use crate::frame::Frame;
 
 /// A sweep by rule `S`, and its memory: framed values, of which only those of nodes near water are
-/// touched.
+/// touched, and all are back at nothing when the sweep is over.
 pub(super) struct Exchange<S: Sharing> {
     /// What wet nodes decided.
     share: Vec<S::Share>,
@@ -61,7 +61,8 @@ impl<S: Sharing> Exchange<S> {
             self.settle(columns);
         }
         self.shift(columns);
-        columns.wrap();
+        self.near.wrap_values(&columns.frame, &mut columns.level);
+        columns.wet.wrap(&columns.frame);
     }
 
     /// First pass: wet nodes decide.
@@ -76,8 +77,8 @@ impl<S: Sharing> Exchange<S> {
                 (share[column], given[column]) = decided;
             });
         });
-        frame.wrap(&mut self.share);
-        frame.wrap(&mut self.given);
+        self.near.wrap_values(frame, &mut self.share);
+        self.near.wrap_values(frame, &mut self.given);
     }
 
     /// Second pass: nodes near water add up their offers and take what they can.
@@ -106,7 +107,7 @@ impl<S: Sharing> Exchange<S> {
                 }
             });
         });
-        frame.wrap(&mut self.part);
+        near.wrap_values(frame, part);
     }
 
     /// Third pass: givers keep what was not taken.
@@ -154,6 +155,10 @@ impl<S: Sharing> Exchange<S> {
                 (given[column], gain[column]) = (0, 0);
             });
         });
+        let Self { share, given, part, near, .. } = self;
+        near.wrap_values(frame, share);
+        near.wrap_values(frame, given);
+        near.wrap_values(frame, part);
     }
 }
 

@@ -56,6 +56,27 @@ impl Marks {
         }
     }
 
+    /// Repeats the other side of a framed plane beyond its periodic borders, as [`Frame::wrap`], in
+    /// rows where this set has a node at a border: enough where no other values changed.
+    pub(crate) fn wrap_values<T: Copy>(&self, frame: &Frame, values: &mut [T]) {
+        let Frame { width, height, stride, .. } = *frame;
+        if frame.is_periodic(0) {
+            for row in 1..=height {
+                if self.has(row, 1) || self.has(row, width) {
+                    let values = &mut values[row * stride..][..stride];
+                    (values[0], values[width + 1]) = (values[width], values[1]);
+                }
+            }
+        }
+        if frame.is_periodic(1) {
+            for (from, to) in [(height, 0), (1, height + 1)] {
+                if !is_empty(self.row(from)) {
+                    values.copy_within(from * stride..(from + 1) * stride, to * stride);
+                }
+            }
+        }
+    }
+
     /// Makes row `to` what row `from` is.
     fn copy_row(&mut self, from: usize, to: usize) {
         let words = self.words_a_row;
@@ -70,6 +91,9 @@ impl Marks {
                 return words.fill(0);
             }
             let rows = [row - 1, row, row + 1].map(|row| core.row(row));
+            if rows.iter().all(|row| is_empty(row)) {
+                return words.fill(0);
+            }
             let column = |word: usize| rows[0][word] | rows[1][word] | rows[2][word];
             let count = words.len();
             for (word, out) in words.iter_mut().enumerate() {
@@ -86,12 +110,20 @@ impl Marks {
 #[inline(always)]
 pub(crate) fn each_column(words: &[u64], width: usize, mut visit: impl FnMut(usize)) {
     for (word, &bits) in words.iter().enumerate() {
+        if bits == 0 {
+            continue;
+        }
         let mut bits = bits & inner(word, width);
         while bits != 0 {
             visit(word * 64 + bits.trailing_zeros() as usize);
             bits &= bits - 1;
         }
     }
+}
+
+/// Whether none of the bits is set.
+fn is_empty(words: &[u64]) -> bool {
+    words.iter().fold(0, |all, word| all | word) == 0
 }
 
 /// The bits of a word that belong to columns from 1 to `width`.
