@@ -110,9 +110,12 @@ fn few_wet(effort: Effort, ground: &(Lattice, Vec<f64>)) {
     };
     let (mut few, mut sweeper, few_count) = filled(&|node| place(node).0 == [0, 0]);
     let (mut all, mut whole, all_count) = filled(&|_| true);
+    // As many cells as a sweep of all, so that neither finds its memory cold after the other.
     let part = || {
-        sweeper.sweep(&mut few, &mut []).expect("flows");
-        few_count
+        for _ in 0..100 {
+            sweeper.sweep(&mut few, &mut []).expect("flows");
+        }
+        100 * few_count
     };
     let rest = || {
         whole.sweep(&mut all, &mut []).expect("flows");

@@ -1,11 +1,14 @@
 //! Sets of voxels: topology, thinning, surfaces, centrelines and the shape of caves.
 
+mod fans;
 mod set;
 mod simple;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod thinning;
 mod topology;
 
 pub use set::VoxelSet;
+pub use surface::{Surface, surface};
 pub use thinning::{Rule, Turns, centreline, plan_sheet};

@@ -12,7 +12,7 @@ fn beam(wide: [usize; 2], long: usize, axis: usize) -> VoxelSet {
 }
 
 /// Random blobs: rough walls, tunnels, cavities.
-fn cave(size: [usize; 3], seed: u64) -> VoxelSet {
+pub(super) fn cave(size: [usize; 3], seed: u64) -> VoxelSet {
     let noise = |x: usize, y: usize, z: usize| {
         let mut hash = (x as u64) << 42 ^ (y as u64) << 21 ^ z as u64 ^ seed.wrapping_mul(0x9E37);
         for _ in 0..3 {
