@@ -23,6 +23,10 @@ const DUNES: &str = r#"(
     outputs: [
         Picture(file: "maps/map.png", when: Every(5)),
         Panels(file: "panels.png"),
+        Figure(file: "figure.png", panels: [
+            (field: "sand", look: Flat()), (at: "smooth", since: "wind", look: Hypsometry()),
+            (at: "wind", look: Relief(water: (field: "sand"))),
+        ]),
         Animation(file: "growth.apng", every: 2),
         Animation(file: "films/growth.gif", every: 3),
         FieldFile(file: "surface.tif", when: StageEnds),

@@ -33,6 +33,7 @@ pub fn registry() -> Registry {
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()
+        .output::<outputs::Figure>()
         .output::<outputs::Animation>()
         .output::<outputs::FieldFile>()
         .output::<outputs::FieldSeries>()

@@ -62,6 +62,11 @@ pub trait Output: Parameters {
         Vec::new()
     }
 
+    /// Names of the stages whose end it waits for, so that a wrong name is refused before the run.
+    fn stages(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The file it writes, below the output folder, or the one from whose name those of
     /// several files are made. Two outputs may not share one.
     fn file(&self) -> Option<&Path> {

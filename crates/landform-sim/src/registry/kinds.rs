@@ -185,6 +185,9 @@ pub trait AnyOutput: AnyParameters {
     /// See [`Output::metrics`].
     fn metrics(&self) -> Vec<String>;
 
+    /// See [`Output::stages`].
+    fn stages(&self) -> Vec<String>;
+
     /// See [`Output::file`].
     fn file(&self) -> Option<&Path>;
 
@@ -209,6 +212,10 @@ impl<O: Output> AnyOutput for O {
 
     fn metrics(&self) -> Vec<String> {
         Output::metrics(self)
+    }
+
+    fn stages(&self) -> Vec<String> {
+        Output::stages(self)
     }
 
     fn file(&self) -> Option<&Path> {

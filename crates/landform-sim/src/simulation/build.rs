@@ -342,6 +342,7 @@ fn check_outputs(
             known_field(fields, &field, format!("{path}.field"))?;
         }
         known_groups(groups, &output.value.groups(), &path)?;
+        known_stages(&scenario.stages, &output.value.stages(), &path)?;
         output.value.validate(lattice).map_err(|problem| below(&path, problem))?;
         let Some(file) = output.value.file() else { continue };
         let earlier = &scenario.outputs[..index];
@@ -388,6 +389,20 @@ fn known_groups(groups: &GroupTable, uses: &[GroupUse], path: &str) -> Result<()
         listing.quantity(name).map_err(unknown)?;
     }
     Ok(())
+}
+
+/// Refuses names that no stage has.
+fn known_stages(stages: &[StageEntry], named: &[String], path: &str) -> Result<(), Problem> {
+    let known = || stages.iter().map(|stage| stage.name.as_str());
+    let Some(name) = named.iter().find(|name| known().all(|stage| stage != name.as_str())) else {
+        return Ok(());
+    };
+    let expected = format!("one of {}", known().collect::<Vec<_>>().join(", "));
+    let problem = Problem::new(path, format!("no stage is called `{name}`"), expected);
+    Err(match nearest(name, known()) {
+        Some(guess) => problem.help(format!("did you mean {guess:?}?")),
+        None => problem,
+    })
 }
 
 /// Fills the fields by the initial conditions, in order.

@@ -25,24 +25,37 @@ impl Default for Curve {
 /// Pixels for each unit of a plot: letters of a plot of the usual size are as large as captions.
 const PIXELS_PER_UNIT: f64 = 1.5;
 
+/// A state of a field: its name and its values.
+type State<'a> = (&'a str, &'a [f64]);
+
 impl Curve {
     pub(super) fn draw(&self, values: &[f64]) -> Result<Image, ViewError> {
-        let curve = HypsometricCurve::new(values).ok();
-        let points = |heights: &dyn Fn(f64) -> f64| {
-            let place = |index: usize| index as f64 / (HypsometricCurve::PLACES - 1) as f64;
-            let places = (0..HypsometricCurve::PLACES).map(place);
-            places.map(|share| Point::new(share, heights(share))).collect::<Vec<_>>()
-        };
         let mut series = Vec::new();
-        if let Some(curve) = &curve {
-            let found = Hypsometry::new(curve);
-            let measured = points(&|share| curve.height_at(share));
-            series.push(Series { line: Some(Line::Solid), ..Series::new("", measured) });
+        if let Ok(curve) = HypsometricCurve::new(values) {
+            let found = Hypsometry::new(&curve);
+            series.push(Series { line: Some(Line::Solid), ..Series::new("", measured(&curve)) });
             if let Some(model) = StrahlerCurve::new(found.a_over_d, found.z) {
                 let model = points(&|share| model.height_at(share));
                 series.push(Series { line: Some(Line::Dashed), ..Series::new("", model) });
             }
         }
+        self.plot(series)
+    }
+
+    /// The curves of a state before and of one after, the later one heavier and below the other
+    /// (thesis, figures 4.12 and 4.21). Flat states have none.
+    pub(crate) fn draw_change(&self, [before, after]: [State<'_>; 2]) -> Result<Image, ViewError> {
+        let heavy = [(after, 3.0), (before, 1.2)];
+        let series =
+            heavy.into_iter().enumerate().filter_map(|(colour, ((name, values), width))| {
+                let curve = HypsometricCurve::new(values).ok()?;
+                let (line, width, colour) = (Some(Line::Solid), Some(width), Some(colour));
+                Some(Series { line, width, colour, ..Series::new(name, measured(&curve)) })
+            });
+        self.plot(series.collect())
+    }
+
+    fn plot(&self, series: Vec<Series>) -> Result<Image, ViewError> {
         let axis = |label: &str| Axis { range: Some([0.0, 1.0]), ..Axis::linear(label) };
         let panel = Panel {
             x: axis("share of the area above"),
@@ -67,4 +80,21 @@ impl Curve {
         let stage = format!("{:?}", found.stage).to_lowercase();
         Some(format!("integral {:.2}, {stage}", found.integral))
     }
+
+    /// The same of a state before and of one after, none where one is flat.
+    pub(crate) fn numbers_of_change([before, after]: [&[f64]; 2]) -> Option<String> {
+        Some(format!("{}, then {}", Self::numbers(before)?, Self::numbers(after)?))
+    }
+}
+
+/// Points of a curve at equal distances.
+fn points(height_at: &dyn Fn(f64) -> f64) -> Vec<Point> {
+    let place = |index: usize| index as f64 / (HypsometricCurve::PLACES - 1) as f64;
+    let places = (0..HypsometricCurve::PLACES).map(place);
+    places.map(|share| Point::new(share, height_at(share))).collect()
+}
+
+/// Points of a measured curve.
+fn measured(curve: &HypsometricCurve) -> Vec<Point> {
+    points(&|share| curve.height_at(share))
 }
