@@ -26,8 +26,10 @@
 //! contributing areas and their scaling laws. [`derivatives`] measures slope, aspect and curvature.
 //!
 //! # Voxels
-//! [`voxels`] thins sets of voxels to centrelines and sheets, and tells their topology.
+//! [`voxels`] thins sets of voxels to centrelines and sheets, tells their topology and makes surfaces of
+//! them. [`caves`] measures networks of passages, and indices of the shape of caves.
 
+pub mod caves;
 mod creases;
 pub mod derivatives;
 mod detrend;

@@ -1,0 +1,12 @@
+//! The shape of caves: networks of centrelines, surveyed or of voxels, and morphometric indices.
+
+mod indices;
+mod network;
+mod of_voxels;
+mod paths;
+mod reduced;
+mod shape;
+
+pub use indices::{CaveField, CaveIndices, CaveTotals};
+pub use network::{Branch, CaveNetwork, CaveNetworkError};
+pub use shape::{NetworkShape, OBSERVED, Observed};
