@@ -3,6 +3,7 @@
 mod fans;
 mod set;
 mod simple;
+mod smooth;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -10,5 +11,6 @@ mod thinning;
 mod topology;
 
 pub use set::VoxelSet;
+pub use smooth::smooth_surface;
 pub use surface::{Surface, surface};
 pub use thinning::{Rule, Turns, centreline, plan_sheet};

@@ -228,13 +228,13 @@ fn each_corner(set: &VoxelSet, layer: usize, mut visit: impl FnMut([usize; 2], u
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::voxels::tests::cave;
 
     /// Asserts that every edge has two triangles that run along it in opposite directions, and that
     /// the triangles of every vertex make one ring; returns the Euler characteristic.
-    fn checked(surface: &Surface) -> i64 {
+    pub(in crate::voxels) fn checked(surface: &Surface) -> i64 {
         let mut half_edges = BTreeMap::new();
         for (number, triangle) in surface.triangles.iter().enumerate() {
             for turn in 0..3 {
@@ -274,7 +274,7 @@ mod tests {
     }
 
     /// Volume inside, in voxels, by the divergence theorem.
-    fn volume(surface: &Surface) -> f64 {
+    pub(in crate::voxels) fn volume(surface: &Surface) -> f64 {
         let at = |vertex: u32| surface.positions[vertex as usize];
         let cone = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(at);
