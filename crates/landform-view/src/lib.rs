@@ -2,7 +2,7 @@
 //!
 //! A [`HeightField`] is checked once; then [`relief::shaded_relief`] draws it as a map and
 //! [`perspective::render`] as a block or as ground to the horizon. [`flat`] draws any other field
-//! with a colour bar, [`graph`] draws nodes and edges, [`montage`] puts pictures together as figures, [`plot`] draws curves with
+//! with a colour bar, [`body`] closed surfaces such as caves, [`graph`] draws nodes and edges, [`montage`] puts pictures together as figures, [`plot`] draws curves with
 //! axes, and [`animation`] writes frames to a file as a run goes on. Everything is computed on the CPU, and the bytes do not
 //! depend on the number of threads.
 //!
@@ -31,6 +31,7 @@
 
 pub mod animation;
 mod atomic_file;
+pub mod body;
 mod colour_map;
 mod error;
 pub mod flat;

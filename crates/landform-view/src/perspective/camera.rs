@@ -55,6 +55,11 @@ impl Camera {
         (depth > 0.0).then_some([column, row])
     }
 
+    /// Distance of a point along the camera's axis, in metres.
+    pub(crate) fn depth(&self, point: DVec3) -> f64 {
+        (point - self.position).dot(self.forward)
+    }
+
     /// Angle between the rays of neighbouring pixels in the middle, in radians.
     pub(crate) fn pixel_angle(&self) -> f64 {
         2.0 * self.half_width / self.size[0]

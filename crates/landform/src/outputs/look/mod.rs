@@ -1,8 +1,9 @@
-//! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice of a
-//! volume, as a spectrum, as a hypsometric curve.
+//! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice or
+//! a body of a volume, as a spectrum, as a hypsometric curve.
 
 mod flat;
 mod hypsometry;
+mod passages;
 mod perspective;
 mod relief;
 mod slice;
@@ -11,6 +12,7 @@ mod text;
 
 pub use flat::{Density, DensityAxes, Flat};
 pub use hypsometry::Curve;
+pub use passages::Passages;
 pub use perspective::Perspective;
 pub use relief::Relief;
 pub use slice::Slice;
@@ -37,6 +39,8 @@ pub enum Look {
     Flat(Flat),
     /// A layer of a volume in colours by value.
     Slice(Slice),
+    /// The voxels of at least a value as a body in perspective.
+    Passages(Passages),
     /// The spectral density of the field.
     Spectrum(Density),
     /// The hypsometric curve of the field.
@@ -52,8 +56,10 @@ impl Default for Look {
 impl Look {
     /// Draws what it shows of a field of `lattice`.
     pub(crate) fn draw(&self, lattice: &Lattice, subject: &Subject) -> Result<Image, ViewError> {
-        if let Self::Slice(slice) = self {
-            return slice.draw(lattice, &subject.values, &subject.unit);
+        match self {
+            Self::Slice(slice) => return slice.draw(lattice, &subject.values, &subject.unit),
+            Self::Passages(passages) => return passages.draw(lattice, &subject.values),
+            _ => {}
         }
         let size = [lattice.width(), lattice.height()];
         let periodic = lattice.is_periodic(0) && lattice.is_periodic(1);
@@ -80,6 +86,7 @@ impl Look {
             Self::Flat(flat) => flat.draw(values, width, height, &subject.unit),
             // Of a plane there is but one.
             Self::Slice(slice) => slice.flat().draw(values, width, height, &subject.unit),
+            Self::Passages(passages) => passages.trial(),
             Self::Spectrum(density) => density.draw(values, [width, height]),
             Self::Hypsometry(curve) => curve.draw(values),
         }
@@ -90,7 +97,11 @@ impl Look {
         match self {
             Self::Relief(relief) => relief.water.as_ref(),
             Self::Perspective(view) => view.water.as_ref(),
-            Self::Flat(_) | Self::Slice(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
+            Self::Flat(_)
+            | Self::Slice(_)
+            | Self::Passages(_)
+            | Self::Spectrum(_)
+            | Self::Hypsometry(_) => None,
         }
     }
 
@@ -106,7 +117,11 @@ impl Look {
         match self {
             Self::Spectrum(_) => Density::numbers(values, [lattice.width(), lattice.height()]),
             Self::Hypsometry(_) => Curve::numbers(values),
-            Self::Relief(_) | Self::Perspective(_) | Self::Flat(_) | Self::Slice(_) => None,
+            Self::Relief(_)
+            | Self::Perspective(_)
+            | Self::Flat(_)
+            | Self::Slice(_)
+            | Self::Passages(_) => None,
         }
     }
 
@@ -117,6 +132,7 @@ impl Look {
             Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
             Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
             Self::Hypsometry(curve) => <[usize; 2]>::from(curve.size).map(|size| size as f64),
+            Self::Passages(passages) => <[usize; 2]>::from(passages.size).map(|size| size as f64),
             Self::Slice(slice) => {
                 slice.size(lattice).map(|voxels| (voxels * slice.pixels_per_node) as f64)
             }
@@ -131,9 +147,13 @@ impl Look {
             return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
         }
         let layers = lattice.depth();
-        if layers > 1 && !matches!(self, Self::Slice(_)) {
+        if layers > 1 && !matches!(self, Self::Slice(_) | Self::Passages(_)) {
             let message = format!("the domain has {layers} layers, and the look shows a map");
-            return Err(Problem::new("look", message, "the look Slice, which shows one of them"));
+            return Err(Problem::new(
+                "look",
+                message,
+                "the look Slice, which shows one of them, or Passages",
+            ));
         }
         let heights = matches!(self, Self::Relief(_) | Self::Perspective(_));
         if heights && lattice.width().min(lattice.height()) < 2 {
@@ -162,7 +182,7 @@ impl Look {
             Self::Perspective(view) => view.range_m,
             Self::Flat(flat) => flat.range,
             Self::Slice(slice) => slice.range,
-            Self::Spectrum(_) | Self::Hypsometry(_) => None,
+            Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
 
@@ -173,7 +193,7 @@ impl Look {
             Self::Perspective(view) => view.range_m = Some(range),
             Self::Flat(flat) => flat.range = Some(range),
             Self::Slice(slice) => slice.range = Some(range),
-            Self::Spectrum(_) | Self::Hypsometry(_) => {}
+            Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => {}
         }
         self
     }
