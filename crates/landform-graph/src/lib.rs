@@ -15,6 +15,7 @@
 //! | breadth-first search, radius, filter on edges | [`BreadthFirst`] |
 //! | search based on a distance map | [`marching::FastMarching`] |
 //! | fast marching as an iteration scheme (A.5) | [`marching::Front`], [`marching::Relaxation`] |
+//! | largest flow through porous rock (5.2.1) | [`max_flow::maximum_flow`] |
 //! | quadratic fitting | [`Quadric`]; whole fields in [`quadric`] |
 //!
 //! Nodes are numbered by rows, and a field is a slice of one value a node in that order: every
@@ -42,6 +43,7 @@
 mod breadth_first;
 mod lattice;
 pub mod marching;
+pub mod max_flow;
 mod neighbours;
 pub mod quadric;
 mod ray;
