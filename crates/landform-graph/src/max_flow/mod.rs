@@ -67,7 +67,9 @@ pub enum FlowError {
         node: usize,
     },
     /// A capacity is too large to be added to that of the reverse edge.
-    #[error("the capacity of the edge from node {from} to node {to} is {capacity}; at most {MOST_CAPACITY}")]
+    #[error(
+        "the capacity of the edge from node {from} to node {to} is {capacity}; at most {MOST_CAPACITY}"
+    )]
     Capacity {
         /// Node that the edge leaves.
         from: usize,
