@@ -120,7 +120,7 @@ mod tests {
         let lattice =
             Lattice::plane([4, 1], 1.0, Connectivity::Eight, [Boundary::Open; 2]).unwrap();
         let pressure = [3.0, 2.0, 1.0, 0.0];
-        let rule = DownPressure { pressure: &pressure, exponent: 1.0 };
+        let rule = DownPressure { pressure: &pressure, exponent: 1 };
         let mut porosity = [0.5, 0.25, 0.5, 0.0];
         let mut water = PoreWater::new(&lattice, &porosity, &[0.5, 0.0, 0.0, 0.0]).unwrap();
         water.sweep(&lattice, &rule);
@@ -149,7 +149,7 @@ mod tests {
     fn porosity_ends_at_one_and_impermeable_rock_stays() {
         let lattice = Lattice::plane([3, 1], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
         let pressure = [1.0, 0.0, 2.0];
-        let rule = DownPressure { pressure: &pressure, exponent: 1.0 };
+        let rule = DownPressure { pressure: &pressure, exponent: 1 };
         let mut porosity = [0.9, 0.9, 0.0];
         let mut water = PoreWater::new(&lattice, &porosity, &[0.9, 0.0, 0.0]).unwrap();
         water.sweep(&lattice, &rule);

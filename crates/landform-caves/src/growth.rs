@@ -59,7 +59,7 @@ pub enum Motion {
         /// How steeply pressure may rise.
         rates: Rates,
         /// Weight of differences of pressure.
-        exponent: f64,
+        exponent: u32,
         /// Pressure at sources before breakthrough.
         most: f64,
         /// Share of it by which pressure falls to the ends of the zones.
@@ -253,3 +253,7 @@ impl ChannelGrowth {
         (&mut self.passages, &self.openings)
     }
 }
+
+#[cfg(test)]
+#[path = "growth_tests.rs"]
+mod tests;

@@ -35,6 +35,7 @@ pub mod reproduce;
 mod sweep;
 
 pub use landform_analysis as analysis;
+pub use landform_caves as caves;
 pub use landform_coast as coast;
 pub use landform_dunes as dunes;
 pub use landform_graph as graph;

@@ -14,6 +14,7 @@ pub fn registry() -> Registry {
         .initial::<inputs::RasterFile>()
         .initial::<inputs::LandAbove>();
     landform_synth::register(&mut registry);
+    landform_caves::register(&mut registry);
     landform_coast::register(&mut registry);
     landform_dunes::register(&mut registry);
     landform_rivers::register(&mut registry);

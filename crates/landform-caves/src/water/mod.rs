@@ -6,6 +6,9 @@
 //! A voxel that is offered more than it has room for takes the same part of every offer. Listing 5.3
 //! updates voxel after voxel, so that its result hangs on their order; here no order can matter, and
 //! symmetric rock keeps water symmetric, bit for bit.
+//!
+//! Pores hold a film: less than [`FILM`] of a voxel's volume does not move, so that thin water does not
+//! creep through all the rock.
 
 mod falling;
 mod pool;
@@ -15,7 +18,7 @@ mod reference;
 mod tests;
 
 pub use falling::Falling;
-pub use pool::{PoreWater, UNIT};
+pub use pool::{FILM, PoreWater, UNIT};
 
 use landform_graph::Lattice;
 
@@ -43,8 +46,8 @@ pub trait Rule {
 pub struct DownPressure<'a> {
     /// Pressure of every voxel.
     pub pressure: &'a [f64],
-    /// 1 weighs by the difference; more makes water keep to the steepest way.
-    pub exponent: f64,
+    /// 1 weighs by the difference; more makes water keep to the steepest ways.
+    pub exponent: u32,
 }
 
 impl Rule for DownPressure<'_> {
@@ -58,25 +61,25 @@ impl Rule for DownPressure<'_> {
         let here = self.pressure[node];
         let mut weights = [0.0; 26];
         let first = offers.len();
-        let mut sum = 0.0;
+        let mut largest = 0.0_f64;
         for edge in lattice.neighbours(node) {
             let difference = here - self.pressure[edge.node];
             if difference > 0.0 {
                 let room = water.room(edge.node);
                 if room > 0 {
-                    let weight = match self.exponent == 1.0 {
-                        true => difference,
-                        false => difference.powf(self.exponent),
-                    };
-                    weights[offers.len() - first] = weight;
-                    sum += weight;
+                    weights[offers.len() - first] = difference;
+                    largest = largest.max(difference);
                     offers.push((edge.node as u32, room));
                 }
             }
         }
         let offers = &mut offers[first..];
+        let weights = &mut weights[..offers.len()];
+        let exponent = self.exponent as i32;
+        weights.iter_mut().for_each(|weight| *weight = (*weight / largest).powi(exponent));
+        let sum: f64 = weights.iter().sum();
         for ((_, amount), weight) in offers.iter_mut().zip(weights) {
-            *amount = (f64::from(*amount) * (weight / sum)) as u32;
+            *amount = (f64::from(*amount) * (*weight / sum)) as u32;
         }
         reduce(offers, water.contents(node));
     }

@@ -9,6 +9,9 @@ use crate::error::check_values;
 /// Units of water in the volume of a voxel, 2^26: all that 26 neighbours can offer fits 32 bits.
 pub const UNIT: f64 = 67_108_864.0;
 
+/// Units of water that pores hold: 2^-12 of a voxel's volume.
+pub const FILM: u32 = 1 << 14;
+
 /// Water in pores, in units of a voxel's volume over 2^26.
 ///
 /// Everything costs what is wet, whatever the size of the lattice.
@@ -167,8 +170,10 @@ impl PoreWater {
         offers.clear();
         self.given.clear();
         for at in 0..self.wet.len() {
-            let first = offers.len();
-            rule.offer(lattice, self, self.wet[at] as usize, &mut offers);
+            let (first, node) = (offers.len(), self.wet[at] as usize);
+            if self.contents[node] > FILM {
+                rule.offer(lattice, self, node, &mut offers);
+            }
             for &(node, amount) in &offers[first..] {
                 if self.asked[node as usize] == 0 && amount > 0 {
                     self.touched.push(node);

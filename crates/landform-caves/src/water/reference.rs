@@ -2,6 +2,8 @@
 
 use landform_graph::Lattice;
 
+use super::{FILM, UNIT};
+
 /// Contents after a sweep, and what each voxel received.
 pub(super) fn sweep(
     lattice: &Lattice,
@@ -12,7 +14,8 @@ pub(super) fn sweep(
     let count = lattice.node_count();
     let mut offers = vec![Vec::new(); count];
     let mut asked = vec![0.0; count];
-    for site in 0..count {
+    let film = f64::from(FILM) / UNIT;
+    for site in (0..count).filter(|&site| contents[site] > film) {
         let participates = |neighbour: usize| {
             capacity[neighbour] > contents[neighbour] && pressure[neighbour] < pressure[site]
         };

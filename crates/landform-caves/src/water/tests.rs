@@ -1,6 +1,7 @@
 //! Water against the listing, and against what it keeps.
 
 use super::*;
+use crate::CaveError;
 use landform_graph::{Boundary, Connectivity};
 use landform_sim::random::RandomStream;
 use proptest::prelude::*;
@@ -39,7 +40,7 @@ proptest! {
         let shares = |water: &PoreWater, of: fn(&PoreWater, usize) -> u32| -> Vec<f64> {
             (0..lattice.node_count()).map(|node| f64::from(of(water, node)) / UNIT).collect()
         };
-        let rule = DownPressure { pressure: &pressure, exponent: 1.0 };
+        let rule = DownPressure { pressure: &pressure, exponent: 1 };
         let all = water.total();
         for _ in 0..4 {
             let capacity = shares(&water, PoreWater::capacity);
@@ -93,7 +94,7 @@ fn symmetric_rock_keeps_water_symmetric() {
     let mut water = PoreWater::new(&lattice, &[0.3; 405], &[0.0; 405]).unwrap();
     for _ in 0..12 {
         water.feed(lattice.node([4, 8, 2]), 1.0);
-        water.sweep(&lattice, &DownPressure { pressure: &pressure, exponent: 1.0 });
+        water.sweep(&lattice, &DownPressure { pressure: &pressure, exponent: 1 });
     }
     assert!(water.wet().len() > 100);
     assert!((0..405).all(|node| water.contents(node) == water.contents(mirror(node))));
@@ -126,5 +127,3 @@ fn water_that_does_not_fit_is_refused() {
     assert!(matches!(new(f64::NAN, 0.0), Err(CaveError::Value { .. })));
     assert!(PoreWater::new(&lattice, &[0.1; 7], &[0.0; 8]).is_err());
 }
-
-use crate::CaveError;

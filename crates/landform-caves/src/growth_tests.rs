@@ -1,0 +1,135 @@
+//! Whole caves: what they must do and what they keep.
+
+use super::*;
+use crate::courses::CourseScale;
+use crate::record::{CaveEventKind, CaveRecord};
+use landform_graph::{Boundary, Connectivity};
+
+fn law(rates: Rates, reach_m: f64) -> GrowthLaw {
+    GrowthLaw {
+        motion: Motion::Pressure {
+            rates,
+            exponent: 4,
+            most: rates.rock_per_m * reach_m,
+            fall: 0.5,
+        },
+        dissolution: Dissolution {
+            rate: 0.15,
+            contributed_weight: 0.25,
+            exponent: 1.0,
+            contributed_fraction: 0.1,
+        },
+        passage: 0.35,
+        sweeps: 1,
+    }
+}
+
+const CAVE: Rates = Rates { rock_per_m: 0.5, channel_per_m: 0.001 };
+
+fn openings(sources: &[usize], sinks: &[usize]) -> Openings {
+    Openings {
+        sources: sources.iter().map(|&node| vec![node]).collect(),
+        pressures: vec![1.0; sources.len()],
+        strengths: vec![1.0; sources.len()],
+        sinks: sinks.to_vec(),
+    }
+}
+
+/// A cave and its fields.
+struct Run {
+    lattice: Lattice,
+    growth: ChannelGrowth,
+    porosity: Vec<f64>,
+    pressure: Vec<f64>,
+    record: CaveRecord,
+}
+
+const SCALE: CourseScale = CourseScale { least_rise_m: 2.0, apart_m: 5.0 };
+
+impl Run {
+    fn new(lattice: Lattice, law: GrowthLaw, openings: Openings, porosity: Vec<f64>) -> Self {
+        let dry = vec![0.0; porosity.len()];
+        let mut growth = ChannelGrowth::new(&lattice, law, openings, &porosity, &dry).unwrap();
+        let pressure = growth.first_pressure(&lattice, &porosity).unwrap();
+        Self { lattice, growth, porosity, pressure, record: CaveRecord::default() }
+    }
+
+    /// Iterations with all that they keep; returns what they moved in all.
+    fn run(&mut self, iterations: u64) -> Turnover {
+        let Self { lattice, growth, porosity, pressure, record } = self;
+        let mut all = Turnover::default();
+        for iteration in 1..=iterations {
+            let moved = growth.step(lattice, porosity, pressure).unwrap();
+            all.fed += moved.fed;
+            all.drained += moved.drained;
+            all.dissolved += moved.dissolved;
+            let (passages, openings) = growth.passages();
+            let ends = (&openings.sources[..], &openings.sinks[..]);
+            record.survey(lattice, (passages, pressure), ends, SCALE, iteration);
+        }
+        all
+    }
+}
+
+fn block() -> Lattice {
+    Lattice::volume([24, 16, 10], 1.0, Connectivity::Voxel26, [Boundary::Open; 3]).unwrap()
+}
+
+#[test]
+fn a_channel_breaks_through_and_nothing_is_lost() {
+    let lattice = block();
+    let (source, sink) = (lattice.node([2, 8, 7]), lattice.node([23, 8, 2]));
+    let rock = vec![0.15; lattice.node_count()];
+    let mut run = Run::new(lattice, law(CAVE, 40.0), openings(&[source], &[sink]), rock.clone());
+    let moved = run.run(200);
+    assert_eq!(run.record.count(CaveEventKind::Breakthrough), 1, "{:?}", run.record);
+    let water = run.growth.water().total() as f64 / UNIT;
+    assert_eq!(moved.fed - moved.drained, water);
+    let grown: f64 = run.porosity.iter().zip(&rock).map(|(now, then)| now - then).sum();
+    assert!((grown - moved.dissolved).abs() < 1e-9 * grown);
+    assert!(run.porosity.iter().all(|porosity| (0.15..=1.0).contains(porosity)));
+    // Fields that show the cave hold what it holds.
+    let (mut shown, mut flow) = (vec![0.0; rock.len()], vec![9.0; rock.len()]);
+    run.growth.show(&mut shown, &mut flow);
+    assert!((shown.iter().sum::<f64>() - water).abs() < 1e-9);
+    assert!(flow.iter().all(|flow| *flow <= 1.0));
+}
+
+/// The pressure that follows growth is that of the rock as it has become.
+#[test]
+fn pressure_after_growth_is_that_of_the_rock() {
+    let lattice = block();
+    let ends = openings(&[lattice.node([2, 3, 7])], &[lattice.node([23, 12, 2])]);
+    let rock = vec![0.2; lattice.node_count()];
+    let mut run = Run::new(lattice, law(CAVE, 40.0), ends.clone(), rock);
+    run.run(120);
+    assert!(run.growth.passages().0.voxels() > 20);
+    let dry = vec![0.0; run.porosity.len()];
+    let afresh = ChannelGrowth::new(&run.lattice, law(CAVE, 40.0), ends, &run.porosity, &dry);
+    assert_eq!(afresh.unwrap().first_pressure(&run.lattice, &run.porosity).unwrap(), run.pressure);
+}
+
+/// A cave that is taken up from its fields goes on as if it had not been interrupted.
+#[test]
+fn a_cave_goes_on_from_its_fields() {
+    let lattice = block();
+    let ends = openings(
+        &[lattice.node([2, 3, 7]), lattice.node([8, 12, 8])],
+        &[lattice.node([23, 12, 2])],
+    );
+    let rock = vec![0.2; lattice.node_count()];
+    let mut whole = Run::new(lattice, law(CAVE, 40.0), ends.clone(), rock);
+    whole.run(40);
+    let (mut water, mut flow) = (vec![0.0; whole.porosity.len()], vec![0.0; whole.porosity.len()]);
+    whole.growth.show(&mut water, &mut flow);
+    let lattice = whole.lattice.clone();
+    let growth =
+        ChannelGrowth::new(&lattice, law(CAVE, 40.0), ends, &whole.porosity, &water).unwrap();
+    let (porosity, pressure) = (whole.porosity.clone(), whole.pressure.clone());
+    let mut taken_up = Run { lattice, growth, porosity, pressure, record: whole.record.clone() };
+    whole.run(60);
+    taken_up.run(60);
+    assert_eq!(whole.porosity, taken_up.porosity);
+    assert_eq!(whole.pressure, taken_up.pressure);
+    assert_eq!(whole.record.drained, taken_up.record.drained);
+}

@@ -1,0 +1,70 @@
+//! Fields of caves.
+
+use landform_sim::field::NodeField;
+
+/// Porosity: 0 for impermeable rock, 1 for a void.
+pub struct Porosity;
+
+impl NodeField for Porosity {
+    type Value = f64;
+    const NAME: &'static str = "porosity";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "share of the voxel that water may fill";
+    const LEAST: f64 = 0.0;
+}
+
+/// Water in the pores.
+pub struct PoreWater;
+
+impl NodeField for PoreWater {
+    type Value = f64;
+    const NAME: &'static str = "pore_water";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "share of the voxel that water fills";
+    const LEAST: f64 = 0.0;
+}
+
+/// Water that a voxel received.
+pub struct PoreFlow;
+
+impl NodeField for PoreFlow {
+    type Value = f64;
+    const NAME: &'static str = "pore_flow";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str =
+        "water that came into the voxel in the latest iteration, as a share of its volume";
+    const LEAST: f64 = 0.0;
+}
+
+/// Pressure of the water in the pores.
+pub struct Pressure;
+
+impl NodeField for Pressure {
+    type Value = f64;
+    const NAME: &'static str = "pressure";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "pressure of the water in the pores, 0 at sinks";
+    const LEAST: f64 = 0.0;
+}
+
+/// Which source claims a voxel.
+pub struct PressureZone;
+
+impl NodeField for PressureZone {
+    type Value = f64;
+    const NAME: &'static str = "pressure_zone";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "number of the source that claims the voxel, from 1; 0 for none";
+    const LEAST: f64 = 0.0;
+}
+
+/// Protochannels through a voxel.
+pub struct ProtochannelCount;
+
+impl NodeField for ProtochannelCount {
+    type Value = f64;
+    const NAME: &'static str = "protochannels";
+    const UNIT: &'static str = "1";
+    const MEANING: &'static str = "number of protochannels that pass the voxel";
+    const LEAST: f64 = 0.0;
+}
