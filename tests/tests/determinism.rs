@@ -34,11 +34,13 @@ const STRIP: &str = "(field: \"land\", from: StartingLand(shape: Strip))";
 const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_m: 0.9))";
 const LEVELS: &str = "(field: \"level_set\", from: SmoothNoise(mean_m: 5.0))";
 const ON_LEVEL: &str = "(field: \"on_level_set\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.3))";
+const PORES: &str = "(field: \"porosity\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.2))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
 const PLATE: (&str, &str) = ("Eight", "(Open, Open)");
 const TRAY: (&str, &str) = ("Four", "(Open, Open)");
+const BLOCK: (&str, &str) = ("TwentySix", "(Open, Open, Open)");
 
 const fn case(
     process: &'static str,
@@ -132,6 +134,11 @@ const GOLDEN: &[Case] = &[
         TORUS,
         0x414d_8710_a785_5d8e,
     ),
+    case("Protochannels()", &[PORES], PLATE, 0x1aeb_8b4c_dd3e_28b6),
+    case("Protochannels(protosinks: 20)", &[PORES], BLOCK, 0xd784_e13f_3c6d_79e0),
+    case("CaveGrowth(sweeps: 5)", &[PORES], PLATE, 0x4619_abf7_e1dc_0bc8),
+    case("CaveGrowth(sweeps: 5, channel_rate_per_m: 0.1)", &[PORES], BLOCK, 0x46d7_50eb_7483_6759),
+    case("CaveGrowth(sweeps: 3, motion: Falling)", &[PORES], BLOCK, 0xa546_8256_9933_d2a6),
     case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
     case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
     case("Pipes()", &[HILLS, LAKE], ISLAND, 0x6a15_acb4_bd24_52f0),
@@ -145,16 +152,20 @@ impl Case {
         self.process.split('(').next().unwrap_or_default()
     }
 
-    /// A scenario on a grid that is neither square nor a multiple of the usual chunks.
+    /// A scenario on a grid or a volume that is neither square nor a multiple of the usual chunks.
     fn scenario(&self, seed: u64) -> String {
         let (connectivity, boundary) = self.domain;
         let process = self.process;
         let initial = self.initial.join(", ");
+        let domain = match connectivity {
+            "TwentySix" => "Volume(size: (25, 17, 9)",
+            _ => "Grid(size: (150, 84)",
+        };
         format!(
             r#"(
                 title: "same bits",
                 seed: {seed},
-                domain: Grid(size: (150, 84), connectivity: {connectivity}, boundary: {boundary}),
+                domain: {domain}, connectivity: {connectivity}, boundary: {boundary}),
                 initial: [{initial}],
                 stages: [(processes: [{process}], stop: Iterations(6))],
                 metrics: [FieldStatistic(field: "{}", statistic: StandardDeviation)],
@@ -176,6 +187,7 @@ impl Case {
             "Trails" => "wear",
             "SlopeAreaErosion" => "drainage_area",
             "WaterColumn" => "water",
+            "Protochannels" | "CaveGrowth" => "porosity",
             _ => "surface",
         }
     }

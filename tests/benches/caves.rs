@@ -1,0 +1,141 @@
+//! Caves: pressure, water and erosion of a growing cave, and the largest flow through rock.
+//!
+//! - `growth`: a whole run of 240 iterations in 60x60x20 voxels from three sources to a sink, an
+//!   iteration and voxel, against copying porosity and pressure;
+//! - `pressure, all`: from scratch in 64x64x64 (128x128x128) voxels, a voxel, against Dijkstra's
+//!   algorithm as a front with a heap;
+//! - `protochannels`: the largest flow to 60 protosinks in 60x60x20 voxels, a voxel, against the same
+//!   copy.
+
+mod measure;
+
+use std::hint::black_box;
+
+use landform::caves::erosion::Dissolution;
+use landform::caves::growth::{ChannelGrowth, GrowthLaw, Motion, Openings};
+use landform::caves::pressure::{Avalanches, Rates};
+use landform::caves::stage_one::{Seed, pressure_zones, protochannels, protosinks};
+use landform::graph::marching::Front;
+use landform::graph::{Boundary, Connectivity, Lattice};
+use landform::sim::random::RandomStream;
+use landform::synth::{Generator, SmoothNoise};
+use measure::{Effort, pairs, table};
+
+const RATES: Rates = Rates { rock_per_m: 0.5, channel_per_m: 0.001 };
+
+fn main() {
+    table("Caves", |effort| {
+        growth(effort);
+        network(effort);
+        let sides: &[usize] = match effort {
+            Effort::Quick => &[64],
+            Effort::Normal => &[64, 128],
+            Effort::Full => &[64, 128, 256],
+        };
+        sides.iter().for_each(|&side| pressure(effort, side));
+    });
+}
+
+fn block(size: [usize; 3]) -> Lattice {
+    Lattice::volume(size, 1.0, Connectivity::Voxel26, [Boundary::Open; 3]).expect("a block")
+}
+
+fn rock(lattice: &Lattice) -> Vec<f64> {
+    let noise = SmoothNoise {
+        mean_m: 0.15,
+        standard_deviation_m: 0.03,
+        correlation_length_m: 3.0,
+        ..SmoothNoise::default()
+    };
+    let field = noise.generate(lattice, 1).expect("noise");
+    field.into_iter().map(|porosity| porosity.clamp(0.01, 0.3)).collect()
+}
+
+fn growth(effort: Effort) {
+    const ITERATIONS: usize = 240;
+    let lattice = block([60, 60, 20]);
+    let porosity = rock(&lattice);
+    let at = |x, y, z| vec![lattice.node([x, y, z])];
+    let openings = Openings {
+        sources: vec![at(9, 47, 15), at(18, 12, 13), at(35, 41, 15)],
+        pressures: vec![1.0; 3],
+        strengths: vec![1.0; 3],
+        sinks: at(59, 24, 4),
+    };
+    let motion = Motion::Pressure { rates: RATES, exponent: 4, most: 30.0, fall: 0.5 };
+    let dissolution = Dissolution {
+        rate: 0.15,
+        contributed_weight: 0.25,
+        exponent: 1.0,
+        contributed_fraction: 0.1,
+    };
+    let law = GrowthLaw { motion, dissolution, passage: 0.35, sweeps: 1 };
+    let dry = vec![0.0; porosity.len()];
+    let run = || {
+        let mut porosity = porosity.clone();
+        let cave = ChannelGrowth::new(&lattice, law, openings.clone(), &porosity, &dry);
+        let mut cave = cave.expect("a cave");
+        let mut pressure = cave.first_pressure(&lattice, &porosity).expect("pressure");
+        for _ in 0..ITERATIONS {
+            black_box(cave.step(&lattice, &mut porosity, &mut pressure).expect("a step"));
+        }
+        ITERATIONS * porosity.len()
+    };
+    let pair = pairs(effort.rounds(5), run, || copies(&porosity));
+    pair.print("growth, a voxel and iteration", "copy of two fields", "29 ns");
+}
+
+/// Copies two fields; returns the number of voxels.
+fn copies(field: &[f64]) -> usize {
+    black_box(black_box(field).to_vec());
+    black_box(black_box(field).to_vec());
+    field.len()
+}
+
+fn network(effort: Effort) {
+    let lattice = block([60, 60, 20]);
+    let porosity = rock(&lattice);
+    let node = lattice.node([30, 30, 10]);
+    let seeds = [Seed { node, source: 0, pressure: 1.0 }];
+    let zones = pressure_zones(&lattice, |_| true, &seeds).expect("zones");
+    let random = RandomStream::new(1, "protosinks");
+    let limits = (60, f64::INFINITY);
+    let sinks = protosinks(&lattice, &zones, (0, node), limits, None, |_| true, &random);
+    let sinks: Vec<(usize, u32)> = sinks.into_iter().map(|node| (node, 0)).collect();
+    let channels = || {
+        let network = protochannels(&lattice, &porosity, &zones, &seeds, &sinks);
+        black_box(network.expect("channels"));
+        porosity.len()
+    };
+    let pair = pairs(effort.rounds(5), channels, || copies(&porosity));
+    pair.print("protochannels, 60 protosinks, a voxel", "copy of two fields", "2800 ns");
+}
+
+fn pressure(effort: Effort, side: usize) {
+    let lattice = block([side; 3]);
+    let sink = lattice.node([side - 1, side / 2, side / 4]);
+    let mut first = vec![1e6; lattice.node_count()];
+    first[sink] = 0.0;
+    let mut avalanches = Avalanches::new();
+    let buckets = || {
+        let mut pressure = first.clone();
+        let settled = avalanches.follow(&lattice, &mut pressure, RATES, |_| false, &[sink]);
+        black_box(settled.expect("pressure"));
+        pressure.len()
+    };
+    let mut front = Front::new();
+    let heap = || {
+        let mut pressure = first.clone();
+        let marched = front.march(&lattice, &[(sink, 0.0)], |from, edge| {
+            let through = pressure[from] + RATES.rock_per_m * edge.distance;
+            (through < pressure[edge.node]).then(|| {
+                pressure[edge.node] = through;
+                through
+            })
+        });
+        black_box(marched.expect("a front"));
+        pressure.len()
+    };
+    let name = format!("pressure, all, {side}^3, a voxel");
+    pairs(effort.rounds(5), buckets, heap).print(&name, "a front with a heap", "160 ns");
+}
