@@ -1,6 +1,6 @@
 //! The courses that water takes from sources to sinks, and how they join.
 
-use landform_graph::Lattice;
+use landform_graph::{BreadthFirst, Lattice, Reach};
 use serde::{Deserialize, Serialize};
 
 use crate::place::{height, separation};
@@ -31,6 +31,8 @@ pub struct CourseScale {
     pub least_rise_m: f64,
     /// Courses that meet only within this distance from their end, in metres, do not join.
     pub apart_m: f64,
+    /// Courses that come as close as this, in metres, have met: they run in one passage.
+    pub near_m: f64,
 }
 
 /// Voxels from `start` down the pressure, each the lowest neighbour of the one before, to a voxel
@@ -50,7 +52,7 @@ pub fn trail(lattice: &Lattice, pressure: &[f64], start: usize) -> Vec<usize> {
 }
 
 /// The courses of sources, given as pairs of number and voxel in the order in which they drained. A
-/// course joins the earlier one whose trail it meets first.
+/// course joins the earlier one to whose trail it comes near first.
 pub fn courses(
     lattice: &Lattice,
     pressure: &[f64],
@@ -58,25 +60,29 @@ pub fn courses(
     scale: CourseScale,
 ) -> Vec<Course> {
     let mut courses: Vec<Course> = Vec::with_capacity(sources.len());
-    // The course that passes each voxel, and its place along it.
-    let mut passed: Vec<(usize, usize, usize)> = Vec::new();
+    // Voxels near the trails so far, with a course and a place along it, in order.
+    let mut near: Vec<(usize, usize, usize)> = Vec::new();
+    let mut search = BreadthFirst::new();
     for &(source, start) in sources {
         let trail = trail(lattice, pressure, start);
-        let meeting = trail.iter().enumerate().find_map(|(at, node)| {
-            let found = passed.binary_search_by_key(node, |entry| entry.0).ok()?;
-            Some((at, passed[found]))
+        let meeting = trail.iter().find_map(|node| {
+            let at = near.partition_point(|entry| entry.0 < *node);
+            near.get(at).filter(|entry| entry.0 == *node).copied()
         });
-        let joined = meeting.filter(|&(_, (_, other, place))| {
+        let joined = meeting.filter(|&(_, other, place)| {
             length(lattice, &courses[other].trail[place..]) > scale.apart_m
         });
-        let own = meeting.map_or(trail.len(), |(at, _)| at);
-        passed.extend(trail[..own].iter().enumerate().map(|(at, &node)| (node, courses.len(), at)));
-        passed.sort_unstable();
+        for (place, &node) in trail.iter().enumerate() {
+            let around = search.collect(lattice, &[node], Reach::metres(scale.near_m), |_, _| true);
+            near.extend(around.iter().map(|visit| (visit.node, courses.len(), place)));
+        }
+        near.sort_unstable();
+        near.dedup_by_key(|entry| entry.0);
         let (loops, climb_m) = rises(lattice, &trail, scale.least_rise_m);
         courses.push(Course {
             source,
-            joins: joined.map(|(_, (node, other, _))| (courses[other].source, node)),
-            order: joined.map_or(0, |(_, (_, other, _))| courses[other].order + 1),
+            joins: joined.map(|(node, other, _)| (courses[other].source, node)),
+            order: joined.map_or(0, |(_, other, _)| courses[other].order + 1),
             loops,
             climb_m,
             length_m: length(lattice, &trail),
@@ -118,7 +124,7 @@ mod tests {
     use super::*;
     use landform_graph::{Boundary, Connectivity};
 
-    const SCALE: CourseScale = CourseScale { least_rise_m: 2.0, apart_m: 3.0 };
+    const SCALE: CourseScale = CourseScale { least_rise_m: 2.0, apart_m: 3.0, near_m: 1.0 };
 
     /// A section whose pressure is 9 but along ways that fall to a sink.
     fn section(ways: &[&[[usize; 2]]]) -> (Lattice, Vec<f64>) {

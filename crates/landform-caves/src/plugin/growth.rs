@@ -158,7 +158,9 @@ impl CaveGrowth {
     }
 
     fn scale(&self, lattice: &Lattice) -> CourseScale {
-        CourseScale { least_rise_m: self.least_rise_m, apart_m: 5.0 * lattice.spacing() }
+        let spacing = lattice.spacing();
+        let (apart_m, near_m) = (8.0 * spacing, 3.0 * spacing);
+        CourseScale { least_rise_m: self.least_rise_m, apart_m, near_m }
     }
 }
 
