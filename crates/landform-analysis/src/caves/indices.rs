@@ -126,7 +126,7 @@ impl Plan {
     /// Cells of the rectangle whose middle lies within `radius` cells of that of a passage.
     fn near(&self, radius: f64) -> usize {
         let [[west, east], [north, south]] = self.bounds;
-        let reach = (radius.max(0.0).min(1e9) as usize).min(self.width.max(self.filled.len()));
+        let reach = (radius.clamp(0.0, 1e9) as usize).min(self.filled.len());
         // Half the width of the disc in rows at each distance.
         let half: Vec<isize> = (0..=reach)
             .map(|off| (radius * radius - (off * off) as f64).max(0.0).sqrt() as isize)

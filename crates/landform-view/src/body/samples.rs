@@ -45,9 +45,8 @@ pub(super) fn nearest(body: &Body<'_>, camera: &Camera, options: &BodyOptions) -
         let top = a[1].min(b[1]).min(c[1]).max(0.0);
         let foot = a[1].max(b[1]).max(c[1]).min(height as f64 - 1.0);
         if top <= foot {
-            for band in top as usize / BAND..=foot as usize / BAND {
-                bands[band].push(number as u32);
-            }
+            let touched = top as usize / BAND..=foot as usize / BAND;
+            bands[touched].iter_mut().for_each(|band| band.push(number as u32));
         }
     }
     let nothing = Sample { triangle: NOTHING, depth: f32::INFINITY, weights: [0.0; 2] };
