@@ -57,3 +57,57 @@ fn maps_of_volumes_are_refused() {
         assert!(said.contains(message), "{to}: {said}");
     }
 }
+
+/// Passages along a plane between two kinds of noise: what other programs read of them.
+#[test]
+fn passages_are_written_as_meshes_and_surveys() {
+    let scratch = Scratch::new("passages");
+    let outputs = r#"FieldFile(file: "block.npy", field: "bed"),
+        VoxelMesh(file: "cave.glb", field: "bed", at_least: 1.0, smoothing: 1),
+        VoxelMesh(file: "cave.obj", field: "bed", at_least: 1.0),
+        Centreline(file: "cave.svx", field: "bed", at_least: 1.0),
+        Centreline(file: "cave.th", field: "bed", at_least: 1.0),
+        Centreline(file: "cave.csv", field: "bed", at_least: 1.0),"#;
+    let text = BLOCK.replace("(5, 4, 3)", "(20, 16, 12)");
+    let text = text.replace("FieldFile(file: \"block.npy\", field: \"bed\"),", outputs);
+    let metrics = "CaveShape(field: \"bed\", at_least: 1.0, near_m: 2.0)]";
+    scratch.write(
+        "block.ron",
+        text.replace("FieldStatistic(field: \"bed\", statistic: Maximum)]", metrics),
+    );
+    Program::within(scratch.folder()).line("run block.ron -o o --quiet").run().good();
+    let read = |file: &str| fs::read_to_string(scratch.path(file)).expect("text");
+    let report: serde_json::Value = serde_json::from_str(&read("o/report.json")).expect("JSON");
+    let measured = |name: &str| report["metrics"][name].as_f64().expect("a number");
+    // Half of the voxels of half a metre.
+    assert!((measured("cave_volume_m3") - 20.0 * 16.0 * 12.0 / 16.0).abs() < 20.0);
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split([' ', ',']).filter_map(|word| word.parse().ok()).collect()
+    };
+    // Legs of the survey are the differences of the stations of the table.
+    let table: Vec<Vec<f64>> = read("o/cave.csv").lines().skip(1).map(numbers).collect();
+    let survey = read("o/cave.svx");
+    let legs = survey.lines().skip_while(|line| !line.starts_with("*data cartesian")).skip(1);
+    let legs: Vec<Vec<f64>> = legs.take_while(|line| !line.starts_with('*')).map(numbers).collect();
+    assert!(legs.len() > 20 && legs.len() == table.len());
+    for (leg, row) in legs.iter().zip(&table) {
+        assert_eq!(leg[..2], row[..2]);
+        for axis in 0..3 {
+            assert!((leg[2 + axis] - (row[5 + axis] - row[2 + axis])).abs() < 6e-4);
+        }
+    }
+    let walls = survey.lines().skip_while(|line| !line.starts_with("*data passage")).skip(1);
+    let stations = walls.take_while(|line| !line.starts_with('*')).count();
+    let highest = table.iter().flat_map(|row| [row[0], row[1]]).fold(0.0, f64::max);
+    assert_eq!(stations, highest as usize);
+    assert!(read("o/cave.th").contains("data dimensions station left right up down"));
+    // A closed surface: every vertex of the text is used, and faces are three to two edges.
+    let mesh = read("o/cave.obj");
+    let count = |start: &str| mesh.lines().filter(|line| line.starts_with(start)).count();
+    assert!(count("v ") > 1000 && count("f ") % 2 == 0);
+    assert!(fs::read(scratch.path("o/cave.glb")).expect("a mesh").starts_with(b"glTF"));
+    let nothing = text.replace("at_least: 1.0, smoothing: 1", "at_least: 9.0");
+    scratch.write("block.ron", nothing);
+    let said = Program::within(scratch.folder()).line("run block.ron -o p --quiet").run().end();
+    assert!(said.stderr.contains("no voxel of `bed` is at least 9"), "{}", said.stderr);
+}

@@ -30,7 +30,8 @@ pub fn registry() -> Registry {
         .metric::<metrics::Creases>()
         .metric::<metrics::Depressions>()
         .metric::<metrics::Drainage>()
-        .metric::<metrics::ValleyHeads>();
+        .metric::<metrics::ValleyHeads>()
+        .metric::<metrics::CaveShape>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()
@@ -45,6 +46,8 @@ pub fn registry() -> Registry {
         .output::<outputs::LakeOutlines>()
         .output::<outputs::CaptureTable>()
         .output::<outputs::IslandTable>()
-        .output::<outputs::Mesh>();
+        .output::<outputs::Mesh>()
+        .output::<outputs::VoxelMesh>()
+        .output::<outputs::Centreline>();
     registry
 }

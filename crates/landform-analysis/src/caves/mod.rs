@@ -3,10 +3,12 @@
 mod indices;
 mod network;
 mod of_voxels;
+mod passage;
 mod paths;
 mod reduced;
 mod shape;
 
 pub use indices::{CaveField, CaveIndices, CaveTotals};
 pub use network::{Branch, CaveNetwork, CaveNetworkError};
+pub use passage::PassageSize;
 pub use shape::{NetworkShape, OBSERVED, Observed};

@@ -120,8 +120,17 @@ impl CaveNetwork {
 
     /// Number of separate parts.
     pub fn component_count(&self) -> usize {
-        let used: Vec<bool> = self.neighbours.iter().map(|list| !list.is_empty()).collect();
-        super::paths::components(&self.neighbours).iter().filter(|part| used[part[0]]).count()
+        self.anchors().len()
+    }
+
+    /// The first station of each separate part.
+    pub fn anchors(&self) -> Vec<usize> {
+        let parts = super::paths::components(&self.neighbours);
+        parts
+            .iter()
+            .map(|part| part[0])
+            .filter(|&first| !self.neighbours[first].is_empty())
+            .collect()
     }
 
     /// Loops that are independent of each other: legs less stations plus parts.

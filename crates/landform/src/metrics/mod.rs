@@ -1,5 +1,6 @@
 //! Metrics that need more than the framework: measures of the form of a terrain.
 
+mod cave_shape;
 mod creases;
 mod depressions;
 mod drainage;
@@ -9,6 +10,7 @@ mod side_dimension;
 mod spectral;
 mod valleys;
 
+pub use cave_shape::CaveShape;
 pub use creases::Creases;
 pub use depressions::Depressions;
 pub use drainage::{Drainage, Pits};
