@@ -108,6 +108,6 @@ fn passages_are_written_as_meshes_and_surveys() {
     assert!(fs::read(scratch.path("o/cave.glb")).expect("a mesh").starts_with(b"glTF"));
     let nothing = text.replace("at_least: 1.0, smoothing: 1", "at_least: 9.0");
     scratch.write("block.ron", nothing);
-    let said = Program::within(scratch.folder()).line("run block.ron -o p --quiet").run().end();
+    let said = Program::within(scratch.folder()).line("run block.ron -o p --quiet").run();
     assert!(said.stderr.contains("no voxel of `bed` is at least 9"), "{}", said.stderr);
 }

@@ -22,11 +22,20 @@ impl CaveNetwork {
         let stations: Vec<[f64; 3]> = voxels.iter().map(|&voxel| position(voxel)).collect();
         let legs = legs(thin, &voxels);
         let network = Self::new(stations, &legs)?;
-        Ok(network.with_junctions_joined())
+        Ok(network.with_junctions_joined(spacing_m))
     }
 
-    /// The network with junctions that are neighbours joined to one in their middle.
-    fn with_junctions_joined(self) -> Self {
+    /// The network with junctions that are neighbours joined to one in their middle, where they fit
+    /// into three voxels each way: what is larger is no crossing of passages.
+    fn with_junctions_joined(self, spacing_m: f64) -> Self {
+        let is_crossing = |part: &[usize]| {
+            (0..3).all(|axis| {
+                let along = part.iter().map(|&station| self.stations()[station][axis]);
+                let [low, high] =
+                    [along.clone().fold(f64::MAX, f64::min), along.fold(f64::MIN, f64::max)];
+                high - low < 2.5 * spacing_m
+            })
+        };
         let is_junction = |station: usize| self.neighbours(station).len() > 2;
         let count = self.stations().len();
         let joined: Vec<Vec<usize>> = (0..count)
@@ -40,7 +49,7 @@ impl CaveNetwork {
             .collect();
         let mut stations = self.stations().to_vec();
         let mut stands_for: Vec<usize> = (0..count).collect();
-        for part in super::paths::components(&joined) {
+        for part in super::paths::components(&joined).iter().filter(|part| is_crossing(part)) {
             let size = part.len() as f64;
             let sum = |axis: usize| part.iter().map(|&at| self.stations()[at][axis]).sum::<f64>();
             stations[part[0]] = [0, 1, 2].map(|axis| sum(axis) / size);
