@@ -20,6 +20,13 @@ const STILL: &str = r#"(
         RiverLines(file: "rivers.geojson", water: "water", flow: "flow", channel_nodes: 40),
         RiverLines(file: "dry.csv", channel_nodes: 40),
         LakeOutlines(file: "lakes.geojson"),
+        Mesh(file: "valley.obj", field: "bed", water: (field: "water")),
+        Picture(file: "section.svg", field: "bed", look: Section(
+            from: (0.0, 0.5862), to: (1.0, 0.5862), water: (field: "water"),
+        )),
+        Picture(file: "section.png", field: "bed", look: Section(
+            from: (0.0, 0.5862), to: (1.0, 0.5862), water: (field: "water"),
+        )),
     ],
 )"#;
 
@@ -211,4 +218,52 @@ fn captures_are_counted_and_listed() {
     for row in &rows {
         assert!(row[0] % 10.0 == 0.0 && row[3] >= 4000.0 && row[4] != row[5], "{row:?}");
     }
+}
+
+/// The ring-shaped lake lies at 65 m in a plain some 23 m above it.
+#[test]
+fn the_water_of_a_mesh_ends_below_its_shores() {
+    let scratch = run();
+    let text = fs::read_to_string(scratch.path("o/valley.obj")).expect("a mesh");
+    let (_, water) = text.split_once("\no water\n").expect("water");
+    let numbers = |line: &str| -> Vec<f64> {
+        line.split_whitespace().skip(1).map(|word| word.parse().expect("a number")).collect()
+    };
+    let vertices: Vec<Vec<f64>> =
+        water.lines().filter(|line| line.starts_with("v ")).map(numbers).collect();
+    // The lake, a ring of nodes round it and one within it, without the middle of its island.
+    assert_eq!(vertices.len(), 40 + 32 + 8);
+    assert!(vertices.iter().all(|vertex| vertex[2] == 65.0));
+    let nearest = vertices.iter().map(|vertex| (vertex[0] - 500.0).hypot(vertex[1] - 340.0));
+    assert_eq!(nearest.fold(f64::INFINITY, f64::min), 20.0);
+    let faces: Vec<Vec<usize>> = water
+        .lines()
+        .filter_map(|line| line.strip_prefix("f "))
+        .map(|line| {
+            line.split(' ').map(|word| word.split('/').next().unwrap().parse().unwrap()).collect()
+        })
+        .collect();
+    // Four triangles meet in the middle of the island.
+    assert_eq!(faces.len(), 2 * 8 * 8 - 4);
+    for face in faces {
+        let corners = face.iter().map(|vertex| &vertices[vertex - 1 - 40 * 30]);
+        let [a, b, c]: [&Vec<f64>; 3] = corners.collect::<Vec<_>>().try_into().expect("a triangle");
+        let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+        assert_eq!(doubled, 400.0, "faces look up and have an area");
+    }
+}
+
+#[test]
+fn a_section_crosses_the_lake_on_both_sides_of_its_island() {
+    let scratch = run();
+    let text = fs::read_to_string(scratch.path("o/section.svg")).expect("a plot");
+    assert_eq!(text.matches("fill=\"#74a9cf\"").count(), 2, "{text}");
+    assert!(text.contains("distance (m)") && text.contains("height (m)"));
+    assert!(text.contains("heights exaggerated 7 times"), "{text}");
+    assert!(fs::metadata(scratch.path("o/section.png")).is_ok_and(|file| file.len() > 1000));
+    let told = Program::within(scratch.folder())
+        .line("run still.ron -o p --quiet --set outputs[4].look=Relief()")
+        .run()
+        .refused();
+    assert!(told.contains("only plots can be written as SVG"), "{told}");
 }

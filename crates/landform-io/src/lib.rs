@@ -70,7 +70,7 @@ pub use lines::{
     Feature, FeatureSystem, Geometry, LineCoordinates, LineFile, LocalPlane, read_lines,
     write_features,
 };
-pub use mesh::{Mesh, write_mesh};
+pub use mesh::{Body, Mesh, write_mesh, write_meshes};
 pub use metadata::{Encoding, Metadata, Sidecar};
 pub use raster::Raster;
 pub use sample::SampleType;

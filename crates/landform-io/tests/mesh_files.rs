@@ -6,7 +6,7 @@ mod support;
 use std::fs;
 
 use landform_io::mesh::height_mesh;
-use landform_io::{IfExists, Mesh, Metadata, Raster, write_mesh};
+use landform_io::{Body, IfExists, Mesh, Metadata, Raster, write_mesh, write_meshes};
 use serde_json::Value;
 use support::Scratch;
 
@@ -139,4 +139,63 @@ fn bare_meshes_have_no_empty_lists() {
     assert_eq!(ply(&bytes).0.len(), 6 * 12 + 4 * 13);
     let text = String::from_utf8(written("a.obj", &bare)).unwrap();
     assert_eq!(text.lines().last(), Some("f 5 6 3"));
+}
+
+/// The roof, and a pond that is half clear.
+fn roof_and_pond(name: &str) -> Vec<u8> {
+    let raster = Raster::local(2, 2, 10.0, vec![3.0; 4]);
+    let mut pond = height_mesh(&raster, 10.0).unwrap();
+    pond.colours = vec![[0, 0, 255]; 4];
+    pond.opacities = vec![128; 4];
+    let folder = Scratch::new("mesh_files");
+    let bodies = [Body { name: "ground", mesh: &roof() }, Body { name: "water", mesh: &pond }];
+    write_meshes(folder.path(name), &bodies, &Metadata::default(), IfExists::Refuse).unwrap();
+    fs::read(folder.path(name)).unwrap()
+}
+
+#[test]
+fn meshes_of_one_file_keep_their_names_and_numbers() {
+    let text = String::from_utf8(roof_and_pond("a.obj")).unwrap();
+    let (ground, water) = text.split_once("o water\n").unwrap();
+    assert!(ground.contains("\no ground\nv 0 10 0 "));
+    assert_eq!(ground.lines().last(), Some("f 5/5/5 6/6/6 3/3/3"));
+    assert!(water.ends_with("f 7/7/7 9/9/9 10/10/10\nf 7/7/7 10/10/10 8/8/8\n"), "{water}");
+    let bytes = roof_and_pond("a.ply");
+    let (body, header) = ply(&bytes);
+    assert!(header.contains(&"element vertex 10") && header.contains(&"element face 6"));
+    assert!(header.contains(&"property uchar alpha"));
+    let vertex = 4 * (3 + 3 + 2) + 4;
+    assert_eq!([body[vertex - 1], body[7 * vertex - 1]], [255, 128]);
+    let face = &body[10 * vertex + 4 * 13..];
+    assert_eq!((face[0], word(face, 1), word(face, 5), word(face, 9)), (3, 6, 8, 9));
+    let bytes = roof_and_pond("a.stl");
+    assert_eq!((word(&bytes, 80), bytes.len()), (6, 84 + 6 * 50));
+}
+
+#[test]
+fn translucent_meshes_blend_and_opaque_ones_do_not() {
+    let bytes = roof_and_pond("a.glb");
+    let (document, binary) = glb(&bytes);
+    let names: Vec<&str> =
+        document["nodes"].as_array().unwrap().iter().map(|n| n["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["ground", "water"]);
+    assert_eq!(document["scenes"][0]["nodes"], serde_json::json!([0, 1]));
+    assert_eq!(document["materials"][0].get("alphaMode"), None);
+    assert_eq!(document["materials"][1]["alphaMode"], "BLEND");
+    let water = &document["meshes"][1]["primitives"][0];
+    assert_eq!(water["material"], 1);
+    let part = |number: &Value| {
+        let view = &document["bufferViews"][number.as_u64().unwrap() as usize];
+        let [start, length] =
+            ["byteOffset", "byteLength"].map(|key| view[key].as_u64().unwrap() as usize);
+        &binary[start..start + length]
+    };
+    // Numbers of vertices begin anew with each mesh.
+    let indices = part(&water["indices"]);
+    let indices: Vec<usize> = (0..6).map(|at| word(indices, 4 * at)).collect();
+    assert_eq!(indices, [0, 2, 3, 0, 3, 1]);
+    let alpha = &part(&water["attributes"]["COLOR_0"])[6..8];
+    assert_eq!(u16::from_le_bytes(alpha.try_into().unwrap()), 128 * 257);
+    let alpha = &part(&document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"])[6..8];
+    assert_eq!(alpha, [255, 255]);
 }

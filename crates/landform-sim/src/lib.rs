@@ -28,6 +28,7 @@ pub mod metric;
 pub mod nodes;
 pub mod notes;
 pub mod output;
+pub mod outside;
 pub mod parameters;
 pub mod prelude;
 pub mod process;

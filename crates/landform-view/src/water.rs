@@ -46,12 +46,27 @@ impl Water {
         check("water.clear_m", self.clear_m, range, "a positive number of metres")
     }
 
+    /// Share of the ground's colour that `path_m` metres of water hide.
+    pub fn opacity(&self, path_m: f64) -> f64 {
+        // Even a film of water darkens the ground, which makes the shore a line.
+        1.0 - 0.8 * (-path_m.max(0.0) / self.clear_m).exp()
+    }
+
     /// Colour of ground seen through `path_m` metres of water.
     pub(crate) fn over(&self, ground: Rgb, path_m: f64) -> Rgb {
-        let deep = self.colour.map(decode);
-        // Even a film of water darkens the ground, which makes the shore a line.
-        let share = 1.0 - 0.8 * (-path_m / self.clear_m).exp();
-        mix(ground, deep, share as f32)
+        mix(ground, self.colour.map(decode), self.opacity(path_m) as f32)
+    }
+
+    /// Height of the water's surface at each node in metres, as pictures draw it: where there is
+    /// water, and at the nodes beside it, where the surface goes on below the ground, so that the
+    /// shore lies where both meet. NaN elsewhere.
+    ///
+    /// # Errors
+    /// [`ViewError::Option`] for settings that are no numbers or not positive.
+    pub fn surface_heights(&self, field: &HeightField<'_>) -> Result<Vec<f64>, ViewError> {
+        self.check()?;
+        let levels = self.known_levels(field, 1, false);
+        Ok(levels.into_iter().map(|level| level.unwrap_or(f64::NAN)).collect())
     }
 
     /// Covers the nodes of a surface that lie below water, seen from above.
@@ -74,30 +89,33 @@ impl Water {
         field: &HeightField<'_>,
         sampling: Sampling,
     ) -> Result<Option<Surface>, ViewError> {
-        let Some(depths) = field.water_depths() else { return Ok(None) };
-        let levels = self.levels(field, depths, sampling.periodic);
+        if field.water_depths().is_none() {
+            return Ok(None);
+        }
+        let levels = self.levels(field, sampling.periodic);
         let raised = HeightField::new(field.width(), field.height(), field.spacing_m(), &levels)?;
         Surface::sample_above(&raised, field.range()[0], sampling).map(Some)
     }
 
-    /// Height of the water at each node. Beside the water it goes on below the ground, so that
-    /// the shore lies where both surfaces meet; elsewhere it is so far below that splines which
-    /// swing beside a cliff do not lift it above the ground.
-    fn levels(&self, field: &HeightField<'_>, depths: &[f64], periodic: bool) -> Vec<f64> {
-        /// Nodes by which levels go on.
-        const RINGS: usize = 2;
-        /// Share of the relief nearby by which splines may swing.
-        const SWING: f64 = 0.35;
+    /// Height of the water at nodes where it stands and up to `rings` nodes beside them, where it
+    /// goes on below the ground.
+    fn known_levels(
+        &self,
+        field: &HeightField<'_>,
+        rings: usize,
+        periodic: bool,
+    ) -> Vec<Option<f64>> {
         let (heights, sea) = (field.heights(), self.level_m.unwrap_or(f64::NEG_INFINITY));
         let size = [field.width(), field.height()];
         let nodes = || (0..heights.len()).into_par_iter();
         let wet = |node: usize| {
-            let own = if depths[node] >= self.least_m { depths[node] } else { 0.0 };
+            let depth = field.water_depths().map_or(0.0, |depths| depths[node]);
+            let own = if depth >= self.least_m { depth } else { 0.0 };
             let level = sea.max(heights[node] + own);
             (level > heights[node]).then_some(level)
         };
         let mut known: Vec<Option<f64>> = nodes().map(wet).collect();
-        for _ in 0..RINGS {
+        for _ in 0..rings {
             let beside = |node: usize| {
                 let (sum, count) = around(node, size, 1, periodic)
                     .filter_map(|near| known[near])
@@ -107,6 +125,20 @@ impl Water {
             };
             known = nodes().map(|node| known[node].or_else(|| beside(node))).collect();
         }
+        known
+    }
+
+    /// Height of the water at each node. Beside the water it goes on below the ground, so that
+    /// the shore lies where both surfaces meet; elsewhere it is so far below that splines which
+    /// swing beside a cliff do not lift it above the ground.
+    fn levels(&self, field: &HeightField<'_>, periodic: bool) -> Vec<f64> {
+        /// Nodes by which levels go on.
+        const RINGS: usize = 2;
+        /// Share of the relief nearby by which splines may swing.
+        const SWING: f64 = 0.35;
+        let known = self.known_levels(field, RINGS, periodic);
+        let (heights, size) = (field.heights(), [field.width(), field.height()]);
+        let nodes = || (0..heights.len()).into_par_iter();
         let below = |node: usize| {
             let bounds = around(node, size, 2, periodic)
                 .flat_map(|near| [heights[near], known[near].unwrap_or(heights[near])]);
@@ -146,15 +178,18 @@ mod tests {
             (0..9 * 4).map(|node| [0.0, 2.0][usize::from(node % 9 != 4)]).collect();
         let depths: Vec<f64> = heights.iter().map(|height| (1.0 - height).max(0.0)).collect();
         let field = HeightField::new(9, 4, 1.0, &heights).unwrap().with_water(&depths).unwrap();
-        let levels = Water::new(1.0).levels(&field, &depths, false);
+        let levels = Water::new(1.0).levels(&field, false);
         // Two metres of relief may swing by 0.7.
         let far = 2.0 - 0.35 * 1.0;
         assert_eq!(levels[..9], [far, far, 1.0, 1.0, 1.0, 1.0, 1.0, far, far]);
+        let surface = Water::new(1.0).surface_heights(&field).unwrap();
+        assert_eq!(surface[3..6], [1.0; 3]);
+        assert!(surface[..3].iter().chain(&surface[6..9]).all(|height| height.is_nan()));
         // A film below the least depth is not drawn.
-        let film = Water { least_m: 1.5, ..Water::new(1.0) }.levels(&field, &depths, false);
+        let film = Water { least_m: 1.5, ..Water::new(1.0) }.levels(&field, false);
         assert!(film.iter().zip(&heights).all(|(level, height)| level < height));
         // A sea covers the film and the plain alike.
-        let sea = Water { least_m: 1.5, ..Water::at(3.0, 1.0) }.levels(&field, &depths, false);
+        let sea = Water { least_m: 1.5, ..Water::at(3.0, 1.0) }.levels(&field, false);
         assert_eq!(sea, [3.0; 36]);
     }
 

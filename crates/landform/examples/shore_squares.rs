@@ -73,7 +73,7 @@ fn map(title: String, rows: &[&[u8]]) -> Result<Panel, Box<dyn Error>> {
         x: axis(width),
         y: axis(height),
         picture: Some(picture),
-        equal: true,
+        exaggeration: Some(1.0),
         bare: true,
         ..Panel::default()
     })

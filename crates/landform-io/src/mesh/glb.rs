@@ -1,12 +1,13 @@
-//! Binary glTF 2.0 (Khronos): one mesh, y up, z south, metres. Metadata are the extras of the
-//! asset; colours are turned to linear light, as the standard demands.
+//! Binary glTF 2.0 (Khronos): y up, z south, metres, a node for each mesh. Metadata are the extras of
+//! the asset; colours are turned to linear light, as the standard demands, and a mesh with opacities
+//! blends with what lies behind it.
 
 use std::io::{self, Write};
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::Mesh;
+use super::{Body, Mesh, check_all};
 use crate::{Fault, IfExists, IoError, Metadata, write_atomically};
 
 /// Kinds of numbers, as the standard numbers them.
@@ -26,21 +27,21 @@ struct Part<'a> {
     write: Fill<'a>,
 }
 
-/// Writes a mesh as GLB.
+/// Writes meshes as GLB.
 ///
 /// # Errors
-/// [`IoError`]: the mesh contradicts itself, needs more than 4 GiB, or the output cannot be
+/// [`IoError`]: a mesh contradicts itself, they need more than 4 GiB, or the output cannot be
 /// written.
 pub fn write(
     path: &Path,
-    mesh: &Mesh,
+    bodies: &[Body<'_>],
     metadata: &Metadata,
     if_exists: IfExists,
 ) -> Result<(), IoError> {
-    mesh.check().map_err(|fault| fault.writing(path))?;
-    let parts = parts(mesh);
-    let binary: u64 = parts.iter().map(|part| part.bytes).sum();
-    let mut text = document(&parts, binary, metadata).to_string().into_bytes();
+    check_all(bodies).map_err(|fault| fault.writing(path))?;
+    let parts: Vec<Vec<Part<'_>>> = bodies.iter().map(|body| parts(body.mesh)).collect();
+    let binary: u64 = parts.iter().flatten().map(|part| part.bytes).sum();
+    let mut text = document(bodies, &parts, binary, metadata).to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let length = 12 + 8 + text.len() as u64 + 8 + binary;
     let length = u32::try_from(length).map_err(|_| {
@@ -57,7 +58,7 @@ pub fn write(
         writer.write_all(&text)?;
         writer.write_all(&(binary as u32).to_le_bytes())?;
         writer.write_all(b"BIN\0")?;
-        parts.iter().try_for_each(|part| (part.write)(writer))
+        parts.iter().flatten().try_for_each(|part| (part.write)(writer))
     })
 }
 
@@ -131,7 +132,7 @@ fn positions(mesh: &Mesh) -> Part<'_> {
     part
 }
 
-/// Colours in linear light with 16 bits and an opaque alpha.
+/// Colours in linear light with 16 bits, and opacities.
 fn colours(mesh: &Mesh) -> Part<'_> {
     let mut accessor = accessor(SHORT, "VEC4", mesh.colours.len());
     accessor["normalized"] = json!(true);
@@ -141,9 +142,10 @@ fn colours(mesh: &Mesh) -> Part<'_> {
         accessor,
         bytes: 8 * mesh.colours.len() as u64,
         write: Box::new(move |writer| {
-            mesh.colours.iter().try_for_each(|colour| {
+            mesh.colours.iter().enumerate().try_for_each(|(vertex, colour)| {
                 let [red, green, blue] = colour.map(|part| table[usize::from(part)]);
-                writer.write_all([red, green, blue, [255, 255]].as_flattened())
+                let alpha = [mesh.opacities.get(vertex).copied().unwrap_or(u8::MAX); 2];
+                writer.write_all([red, green, blue, alpha].as_flattened())
             })
         }),
     }
@@ -160,37 +162,59 @@ fn linear(part: u8) -> u16 {
 }
 
 /// The JSON chunk.
-fn document(parts: &[Part<'_>], binary: u64, metadata: &Metadata) -> Value {
-    let mut attributes = Map::new();
-    let mut views = Vec::new();
-    let mut accessors = Vec::new();
+fn document(
+    bodies: &[Body<'_>],
+    parts: &[Vec<Part<'_>>],
+    binary: u64,
+    metadata: &Metadata,
+) -> Value {
+    let [mut views, mut accessors, mut meshes, mut nodes] = [const { Vec::new() }; 4];
     let mut start = 0;
-    for (number, part) in parts.iter().enumerate() {
-        let target = if part.attribute.is_some() { 34962 } else { 34963 };
-        let mut accessor = part.accessor.clone();
-        accessor["bufferView"] = json!(number);
-        accessors.push(accessor);
-        views.push(json!({
-            "buffer": 0, "byteOffset": start, "byteLength": part.bytes, "target": target
-        }));
-        start += part.bytes;
-        if let Some(name) = part.attribute {
-            attributes.insert(name.into(), json!(number));
+    for (number, (body, parts)) in bodies.iter().zip(parts).enumerate() {
+        let mut attributes = Map::new();
+        for part in parts {
+            let target = if part.attribute.is_some() { 34962 } else { 34963 };
+            let mut accessor = part.accessor.clone();
+            accessor["bufferView"] = json!(views.len());
+            if let Some(name) = part.attribute {
+                attributes.insert(name.into(), json!(accessors.len()));
+            }
+            accessors.push(accessor);
+            views.push(json!({
+                "buffer": 0, "byteOffset": start, "byteLength": part.bytes, "target": target
+            }));
+            start += part.bytes;
         }
+        let indices = accessors.len() - 1;
+        let primitive = json!({ "attributes": attributes, "indices": indices, "material": number });
+        meshes.push(json!({ "name": body.name, "primitives": [primitive] }));
+        nodes.push(json!({ "name": body.name, "mesh": number }));
     }
     let extras: Map<String, Value> =
         metadata.entries().into_iter().map(|(name, text)| (name, text.into())).collect();
-    let rough = json!({ "metallicFactor": 0.0, "roughnessFactor": 1.0 });
-    let primitive = json!({ "attributes": attributes, "indices": parts.len() - 1, "material": 0 });
     json!({
         "asset": { "version": "2.0", "generator": "Landform", "extras": extras },
         "scene": 0,
-        "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0 }],
-        "meshes": [{ "primitives": [primitive] }],
-        "materials": [{ "pbrMetallicRoughness": rough, "doubleSided": true }],
+        "scenes": [{ "nodes": (0..bodies.len()).collect::<Vec<_>>() }],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": bodies.iter().map(material).collect::<Vec<_>>(),
         "accessors": accessors,
         "bufferViews": views,
         "buffers": [{ "byteLength": binary }],
     })
+}
+
+/// Rough and opaque, or smooth and translucent as water is.
+fn material(body: &Body<'_>) -> Value {
+    let surface = |roughness: f64| json!({ "metallicFactor": 0.0, "roughnessFactor": roughness });
+    match body.mesh.opacities.is_empty() {
+        true => {
+            json!({ "name": body.name, "pbrMetallicRoughness": surface(1.0), "doubleSided": true })
+        }
+        false => json!({
+            "name": body.name, "pbrMetallicRoughness": surface(0.2), "doubleSided": true,
+            "alphaMode": "BLEND"
+        }),
+    }
 }

@@ -1,7 +1,7 @@
 //! Triangle meshes for renderers and printers: OBJ, PLY, GLB and STL.
 //!
 //! A [`Mesh`] has x east, y north and z up, in metres. OBJ, PLY and STL keep that; GLB turns
-//! it to y up, as glTF demands.
+//! it to y up, as glTF demands. A file may hold several, ground and water say: a [`Body`] each.
 
 pub mod glb;
 mod height;
@@ -28,6 +28,9 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Red, green and blue as in pictures (sRGB).
     pub colours: Vec<[u8; 3]>,
+    /// How much of what lies behind is hidden: 0 is clear, 255 opaque. Opaque where empty. GLB and
+    /// PLY keep it.
+    pub opacities: Vec<u8>,
     /// Position in a picture to be draped over: from the left and from the top, in 0..=1.
     pub picture_positions: Vec<[f32; 2]>,
     /// Three vertices each, counter-clockwise seen from outside.
@@ -65,6 +68,7 @@ impl Mesh {
         for (name, length) in [
             ("normals", self.normals.len()),
             ("colours", self.colours.len()),
+            ("opacities", self.opacities.len()),
             ("picture positions", self.picture_positions.len()),
         ] {
             if length != 0 && length != count {
@@ -87,6 +91,38 @@ impl Mesh {
     }
 }
 
+/// A mesh and its name in a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body<'m> {
+    /// Name in GLB and OBJ.
+    pub name: &'m str,
+    /// The mesh.
+    pub mesh: &'m Mesh,
+}
+
+/// Checks the meshes of a file; their vertices are numbered one after another.
+fn check_all(bodies: &[Body<'_>]) -> Result<(), Fault> {
+    bodies.iter().try_for_each(|body| body.mesh.check())?;
+    let count: usize = bodies.iter().map(|body| body.mesh.positions.len()).sum();
+    match (bodies.is_empty(), u32::try_from(count)) {
+        (true, _) => Err(Fault::new("no mesh at all", "at least one", "name a mesh")),
+        (_, Err(_)) => {
+            let advice = "write a part, or coarser meshes";
+            Err(Fault::new(format!("{count} vertices"), "fewer than 2^32", advice))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Meshes with the number of their first vertex among those of all.
+fn numbered<'b>(bodies: &'b [Body<'b>]) -> impl Iterator<Item = (u32, &'b Body<'b>)> {
+    bodies.iter().scan(0, |next, body| {
+        let first = *next;
+        *next += body.mesh.positions.len() as u32;
+        Some((first, body))
+    })
+}
+
 /// Normal of a triangle, as long as twice its area.
 fn area_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [u, v] = [b, c].map(|corner| [0, 1, 2].map(|axis| corner[axis] - a[axis]));
@@ -101,23 +137,37 @@ fn unit(vector: [f64; 3]) -> [f32; 3] {
     }
 }
 
-/// Writes a mesh in the format that the extension names: `.obj`, `.ply`, `.glb` or `.stl`.
+/// Writes a mesh, as the ground, in the format that the extension names: see [`write_meshes`].
 ///
 /// # Errors
-/// [`IoError`]: an unknown extension, a mesh that contradicts itself, or an output that is
-/// there already or cannot be written.
+/// As [`write_meshes`].
 pub fn write_mesh(
     path: impl AsRef<Path>,
     mesh: &Mesh,
     metadata: &Metadata,
     if_exists: IfExists,
 ) -> Result<(), IoError> {
+    write_meshes(path, &[Body { name: "ground", mesh }], metadata, if_exists)
+}
+
+/// Writes meshes in the format that the extension names: `.obj`, `.ply`, `.glb` or `.stl`. GLB and
+/// OBJ keep them apart by their names, PLY and STL make one of them.
+///
+/// # Errors
+/// [`IoError`]: an unknown extension, a mesh that contradicts itself, or an output that is
+/// there already or cannot be written.
+pub fn write_meshes(
+    path: impl AsRef<Path>,
+    bodies: &[Body<'_>],
+    metadata: &Metadata,
+    if_exists: IfExists,
+) -> Result<(), IoError> {
     let path = path.as_ref();
     match extension(path).as_str() {
-        "obj" => obj::write(path, mesh, metadata, if_exists),
-        "ply" => ply::write(path, mesh, metadata, if_exists),
-        "glb" => glb::write(path, mesh, metadata, if_exists),
-        "stl" => stl::write(path, mesh, metadata, if_exists),
+        "obj" => obj::write(path, bodies, metadata, if_exists),
+        "ply" => ply::write(path, bodies, metadata, if_exists),
+        "glb" => glb::write(path, bodies, metadata, if_exists),
+        "stl" => stl::write(path, bodies, metadata, if_exists),
         other => Err(unknown(path, other, ".obj, .ply, .glb, .stl")),
     }
 }

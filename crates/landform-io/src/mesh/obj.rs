@@ -4,31 +4,47 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Mesh, comments};
+use super::{Body, Mesh, check_all, comments, numbered};
 use crate::{IfExists, IoError, Metadata, write_atomically};
 
-/// Writes a mesh as OBJ.
+/// Writes meshes as OBJ, an object each.
 ///
 /// # Errors
-/// [`IoError`]: the mesh contradicts itself, or the output cannot be written.
+/// [`IoError`]: a mesh contradicts itself, or the output cannot be written.
 pub fn write(
     path: &Path,
-    mesh: &Mesh,
+    bodies: &[Body<'_>],
     metadata: &Metadata,
     if_exists: IfExists,
 ) -> Result<(), IoError> {
-    mesh.check().map_err(|fault| fault.writing(path))?;
+    check_all(bodies).map_err(|fault| fault.writing(path))?;
     write_atomically(path, if_exists, |writer| {
         writeln!(writer, "# x east, y north, z up; metres")?;
         for comment in comments(metadata) {
             writeln!(writer, "# {comment}")?;
         }
-        write_vertices(mesh, writer)?;
-        write_faces(mesh, writer)
+        // Lists that only some meshes have would be numbered otherwise than vertices.
+        let all = |has: fn(&Mesh) -> bool| bodies.iter().all(|body| has(body.mesh));
+        let lists = Lists {
+            picture_positions: all(|mesh| !mesh.picture_positions.is_empty()),
+            normals: all(|mesh| !mesh.normals.is_empty()),
+        };
+        numbered(bodies).try_for_each(|(first, Body { name, mesh })| {
+            writeln!(writer, "o {name}")?;
+            write_vertices(mesh, lists, writer)?;
+            write_faces(mesh, first, lists, writer)
+        })
     })
 }
 
-fn write_vertices(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
+/// Which lists all meshes of the file have.
+#[derive(Clone, Copy)]
+struct Lists {
+    picture_positions: bool,
+    normals: bool,
+}
+
+fn write_vertices(mesh: &Mesh, lists: Lists, writer: &mut impl Write) -> io::Result<()> {
     for (vertex, [x, y, z]) in mesh.positions.iter().enumerate() {
         write!(writer, "v {x} {y} {z}")?;
         if let Some(colour) = mesh.colours.get(vertex) {
@@ -37,24 +53,24 @@ fn write_vertices(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
         }
         writeln!(writer)?;
     }
-    for [left, top] in &mesh.picture_positions {
+    for [left, top] in mesh.picture_positions.iter().filter(|_| lists.picture_positions) {
         writeln!(writer, "vt {left} {}", 1.0 - top)?;
     }
-    for [x, y, z] in &mesh.normals {
+    for [x, y, z] in mesh.normals.iter().filter(|_| lists.normals) {
         writeln!(writer, "vn {x} {y} {z}")?;
     }
     Ok(())
 }
 
-fn write_faces(mesh: &Mesh, writer: &mut impl Write) -> io::Result<()> {
+fn write_faces(mesh: &Mesh, first: u32, lists: Lists, writer: &mut impl Write) -> io::Result<()> {
     for triangle in &mesh.triangles {
         write!(writer, "f")?;
-        for vertex in triangle.map(|vertex| u64::from(vertex) + 1) {
-            match (mesh.picture_positions.is_empty(), mesh.normals.is_empty()) {
-                (true, true) => write!(writer, " {vertex}")?,
-                (false, true) => write!(writer, " {vertex}/{vertex}")?,
-                (true, false) => write!(writer, " {vertex}//{vertex}")?,
-                (false, false) => write!(writer, " {vertex}/{vertex}/{vertex}")?,
+        for vertex in triangle.map(|vertex| u64::from(first) + u64::from(vertex) + 1) {
+            match (lists.picture_positions, lists.normals) {
+                (false, false) => write!(writer, " {vertex}")?,
+                (true, false) => write!(writer, " {vertex}/{vertex}")?,
+                (false, true) => write!(writer, " {vertex}//{vertex}")?,
+                (true, true) => write!(writer, " {vertex}/{vertex}/{vertex}")?,
             }
         }
         writeln!(writer)?;

@@ -4,22 +4,23 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::{Mesh, area_normal, comments, unit};
+use super::{Body, area_normal, check_all, comments, unit};
 use crate::{Fault, IfExists, IoError, Metadata, write_atomically};
 
-/// Writes the triangles of a mesh as STL.
+/// Writes the triangles of meshes as STL.
 ///
 /// # Errors
-/// [`IoError`]: the mesh contradicts itself, or the output cannot be written.
+/// [`IoError`]: a mesh contradicts itself, or the output cannot be written.
 pub fn write(
     path: &Path,
-    mesh: &Mesh,
+    bodies: &[Body<'_>],
     metadata: &Metadata,
     if_exists: IfExists,
 ) -> Result<(), IoError> {
-    mesh.check().map_err(|fault| fault.writing(path))?;
-    let count = u32::try_from(mesh.triangles.len()).map_err(|_| {
-        let problem = format!("{} triangles", mesh.triangles.len());
+    check_all(bodies).map_err(|fault| fault.writing(path))?;
+    let total: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
+    let count = u32::try_from(total).map_err(|_| {
+        let problem = format!("{total} triangles");
         Fault::new(problem, "fewer than 2^32", "write a part").writing(path)
     })?;
     // A header that starts with "solid" would be taken for text.
@@ -29,8 +30,11 @@ pub fn write(
     write_atomically(path, if_exists, |writer| {
         writer.write_all(&header)?;
         writer.write_all(&count.to_le_bytes())?;
-        for triangle in &mesh.triangles {
-            let corners = triangle.map(|vertex| mesh.positions[vertex as usize]);
+        let triangles = bodies.iter().flat_map(|Body { mesh, .. }| {
+            let corners = |vertex: u32| mesh.positions[vertex as usize];
+            mesh.triangles.iter().map(move |triangle| triangle.map(corners))
+        });
+        for corners in triangles {
             let normal = unit(area_normal(corners));
             let corners = corners.as_flattened().iter().map(|&part| part as f32);
             for number in normal.into_iter().chain(corners) {

@@ -9,6 +9,7 @@ use landform_sim::fault::Fault;
 use landform_sim::field::{Bed, Field, FieldMut, OnEdges, Water};
 use landform_sim::ledger::{Budget, Ledger};
 use landform_sim::nodes::Space;
+use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
 use landform_sim::process::{Begin, Declaration, Iterate, Process, ProcessApp, Settings};
 use schemars::JsonSchema;
@@ -25,7 +26,8 @@ use crate::water::{Algorithm, Columns, MOST_M, Place, Side, Sweeper, border_node
 /// iteration: rain falls and sources run; then `sweeps` times every node shares its water with its
 /// lower neighbours by the `algorithm`, all at the same moment, and what has reached an outlet or a
 /// sink is gone; then a share of all water is lost to ground and air. The field `flow` is the water
-/// that a node received from neighbours, in all sweeps of the iteration.
+/// that a node received from neighbours, in all sweeps of the iteration. Where the map ends before
+/// the lattice does, in nodes without data, its edge is an outlet.
 ///
 /// A sweep moves water by one node. Depths are whole units of 2^-32 m, so water is conserved exactly,
 /// and a lake at rest stays at rest, bit for bit. No sweep has a direction: symmetric ground keeps
@@ -97,13 +99,18 @@ struct Openings {
     sources: Vec<(Vec<usize>, f64)>,
     sinks: Vec<Vec<usize>>,
     outlets: Vec<(Side, Vec<usize>)>,
+    /// Nodes outside the map and on its edge.
+    gaps: Vec<usize>,
 }
+
+/// Where water leaves a map that ends before its lattice does.
+const EDGE: &str = "edge of the map";
 
 /// Deepest water that a spring may add to a node in an iteration.
 const MOST_FED_M: f64 = MOST_M / 256.0;
 
 impl WaterColumn {
-    fn openings(&self, lattice: &Lattice) -> Result<Openings, Problem> {
+    fn openings(&self, lattice: &Lattice, outside: &Outside) -> Result<Openings, Problem> {
         let sources = self.sources.iter().enumerate().map(|(number, source)| {
             let name = format!("sources[{number}]");
             let place = Place { center: source.center, radius_m: source.radius_m };
@@ -124,6 +131,7 @@ impl WaterColumn {
             sources: sources.collect::<Result<_, _>>()?,
             sinks: sinks.collect::<Result<_, _>>()?,
             outlets: self.outlets(lattice)?,
+            gaps: outside.nodes().chain(outside.edge().iter().copied()).collect(),
         })
     }
 
@@ -163,7 +171,7 @@ impl Process for WaterColumn {
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
         Sweeper::check(lattice, self.algorithm).map_err(|error| refusal(&error, "algorithm"))?;
-        self.openings(lattice).map(|_| ())
+        self.openings(lattice, &Outside::default()).map(|_| ())
     }
 }
 
@@ -184,7 +192,7 @@ struct WaterWorks {
 fn lay_out(
     mut commands: Commands,
     settings: Res<Settings<WaterColumn>>,
-    space: Res<Space>,
+    (space, outside): (Res<Space>, Res<Outside>),
     mut fault: ResMut<Fault>,
 ) {
     let made = || -> Result<WaterWorks, Problem> {
@@ -192,7 +200,7 @@ fn lay_out(
         Ok(WaterWorks {
             columns: Columns::new(&space).map_err(refused)?,
             sweeper: Sweeper::new(&space, settings.algorithm).map_err(refused)?,
-            openings: settings.openings(&space)?,
+            openings: settings.openings(&space, &outside)?,
         })
     };
     match made() {
@@ -242,6 +250,13 @@ impl Book<'_> {
             self.ledger.leave("water", place, -sum_m * self.area_m2);
         }
     }
+
+    /// Takes all water off `nodes` and books it.
+    fn drain(&mut self, place: &str, columns: &mut Columns, nodes: &[usize]) {
+        if !nodes.is_empty() {
+            self.enter(place, -columns.drain(nodes));
+        }
+    }
 }
 
 impl WaterWorks {
@@ -262,17 +277,19 @@ impl WaterWorks {
         let sea: Vec<usize> = settings.sea_level_m.map_or_else(Vec::new, |level_m| {
             (0..fields.bed.len()).filter(|&node| fields.bed[node] < level_m).collect()
         });
-        // Rain on the sea runs nowhere.
-        book.enter("sea", -columns.drain(&sea));
+        // Rain on the sea and outside the map runs nowhere.
+        book.drain("sea", columns, &sea);
+        book.drain(EDGE, columns, &openings.gaps);
         for _ in 0..settings.sweeps {
             sweeper.sweep(columns, pipes)?;
             for (side, nodes) in &openings.outlets {
-                book.enter(side.border(), -columns.drain(nodes));
+                book.drain(side.border(), columns, nodes);
             }
             for nodes in &openings.sinks {
-                book.enter("sinks", -columns.drain(nodes));
+                book.drain("sinks", columns, nodes);
             }
-            book.enter("sea", -columns.drain(&sea));
+            book.drain("sea", columns, &sea);
+            book.drain(EDGE, columns, &openings.gaps);
         }
         book.enter("losses", -columns.lose(settings.loss));
         book.enter("rounding", columns.finish(fields.water, flow));

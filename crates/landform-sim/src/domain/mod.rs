@@ -13,6 +13,7 @@ use landform_graph::{Boundary, Lattice};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::outside::Outside;
 use crate::parameters::{Parameters, Problem};
 
 /// The lattice of a run and what is known about its place on Earth.
@@ -24,13 +25,24 @@ pub struct Domain {
     pub raster: Option<Arc<[f64]>>,
     /// Georeference of that raster as its reader wrote it; only outputs look inside.
     pub georeference: Option<Arc<dyn std::any::Any + Send + Sync>>,
+    /// The number that stands for missing data in the file of that raster, if it names one.
+    pub no_data: Option<f64>,
+    /// The nodes that do not belong to the map.
+    pub outside: Outside,
     /// What a person should know about how the domain was made (cells filled, units assumed).
     pub remarks: Vec<String>,
 }
 
 impl From<Lattice> for Domain {
     fn from(lattice: Lattice) -> Self {
-        Self { lattice, raster: None, georeference: None, remarks: Vec::new() }
+        Self {
+            lattice,
+            raster: None,
+            georeference: None,
+            no_data: None,
+            outside: Outside::default(),
+            remarks: Vec::new(),
+        }
     }
 }
 

@@ -89,6 +89,7 @@ impl Simulation {
         spawn_nodes(world, domain.lattice.clone());
         groups.iter().for_each(|group| (group.make)(world, domain.lattice.node_count()));
         uses.iter().flat_map(|uses| &uses.edges).for_each(|e| (e.make)(world, &domain.lattice));
+        world.insert_resource(domain.outside.clone());
         world.insert_resource(fields);
         world.insert_resource(GroupTable(listings(&groups)));
         world.insert_resource(Clock { seed: scenario.seed, ..Clock::default() });

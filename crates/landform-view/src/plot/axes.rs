@@ -6,7 +6,7 @@ use super::figure::Panel;
 use super::legend;
 use super::marks::{LINE_WIDTH, colour, dashes, mark};
 use super::picture::Picture;
-use super::series::{Rule, Series};
+use super::series::{Area, Rule, Series};
 use super::ticks::{Tick, named, ticks};
 use crate::text;
 
@@ -33,9 +33,10 @@ impl Axes {
     /// The axes of a panel of a size.
     pub fn of(panel: &Panel, [width, height]: [f64; 2]) -> Self {
         let points = || panel.series.iter().flat_map(|series| &series.points);
-        let x = panel.x.span(points().map(|point| point.x));
+        let corners = || panel.areas.iter().flat_map(|area| &area.corners);
+        let x = panel.x.span(points().map(|point| point.x).chain(corners().map(|at| at[0])));
         let ends = points().flat_map(|p| [Some(p.y), p.error.map(|e| e[0]), p.error.map(|e| e[1])]);
-        let y = panel.y.span(ends.flatten());
+        let y = panel.y.span(ends.flatten().chain(corners().map(|at| at[1])));
         let marks = |names: &[String], span: &Span, most: f64| match names.is_empty() {
             true => ticks(span, most as usize),
             false => named(names),
@@ -68,6 +69,7 @@ impl Axes {
             self.grid(frame, drawing);
         }
         drawing.clip = Some(frame);
+        panel.areas.iter().for_each(|area| self.area(area, frame, drawing));
         panel.rules.iter().for_each(|rule| self.rule(*rule, frame, drawing));
         for (index, series) in panel.series.iter().enumerate() {
             self.series(series, colour(series, index), frame, drawing);
@@ -84,6 +86,13 @@ impl Axes {
         let marks = panel.series.iter().flat_map(|series| &series.points);
         let places = marks.filter_map(|point| self.place(frame, [point.x, point.y])).collect();
         legend::draw(panel, frame, places, drawing);
+    }
+
+    fn area(&self, area: &Area, frame: Frame, drawing: &mut Drawing) {
+        let corners = area.corners.iter().map(|&at| self.place(frame, at));
+        if let Some(corners) = corners.collect() {
+            drawing.add(Shape::Fill { corners, colour: area.colour });
+        }
     }
 
     /// Width of the axes over their height, in units of both.

@@ -7,7 +7,7 @@ use super::axis::Axis;
 use super::drawing::Drawing;
 use super::layout;
 use super::picture::{ColourScale, Picture};
-use super::series::{Note, Rule, Series};
+use super::series::{Area, Note, Rule, Series};
 use crate::atomic_file::{AtomicFile, write_error};
 use crate::{Image, ViewError};
 
@@ -20,6 +20,8 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
+    /// Filled areas below everything but a picture, the first below the others.
+    pub areas: Vec<Area>,
     /// What is drawn, the first below the others.
     pub series: Vec<Series>,
     /// Rules behind the series.
@@ -32,8 +34,9 @@ pub struct Panel {
     pub colours: Option<ColourScale>,
     /// Words below the plot.
     pub caption: String,
-    /// Whether units are as long along both axes, as on a map.
-    pub equal: bool,
+    /// How many times as long a unit of the vertical axis is as one of the horizontal axis: 1 on a
+    /// map, more in a section whose heights are exaggerated. Without it the plot fills its room.
+    pub exaggeration: Option<f64>,
     /// Whether the axes are left out, as round a view.
     pub bare: bool,
 }

@@ -38,7 +38,10 @@ pub(super) fn draw(figure: &Figure) -> Drawing {
         };
         let room = room(panel, corner, [width, height], numbers[column], !words.is_empty());
         drawing.words(&words, [room[0], room[1] - 0.9 * SMALL], 1.1 * SMALL, Anchor::Start);
-        let frame = if panel.equal || panel.bare { fitted(room, own.aspect()) } else { room };
+        let frame = match panel.exaggeration.or(panel.bare.then_some(1.0)) {
+            Some(exaggeration) => fitted(room, own.aspect() / exaggeration),
+            None => room,
+        };
         own.draw(panel, frame, &mut drawing);
         if let Some(colours) = &panel.colours {
             colours.draw(frame, &mut drawing);
@@ -55,10 +58,9 @@ pub(super) fn draw(figure: &Figure) -> Drawing {
 /// The axes of a panel of a size, with as many numbers as its plot has room for.
 fn axes(panel: &Panel, [width, height]: [f64; 2]) -> Axes {
     let axes = Axes::of(panel, [width, height]);
-    if !panel.equal {
-        return axes;
-    }
-    let [left, top, right, bottom] = fitted([0.0, 0.0, width as f32, height as f32], axes.aspect());
+    let Some(exaggeration) = panel.exaggeration else { return axes };
+    let room = [0.0, 0.0, width as f32, height as f32];
+    let [left, top, right, bottom] = fitted(room, axes.aspect() / exaggeration);
     Axes::of(panel, [(right - left).into(), (bottom - top).into()])
 }
 

@@ -43,4 +43,4 @@ pub use axis::{Axis, Scale};
 pub use figure::{Figure, Panel};
 pub use label::label;
 pub use picture::{ColourScale, Picture};
-pub use series::{Line, Marker, Note, Point, Rule, Series};
+pub use series::{Area, Line, Marker, Note, Point, Rule, Series};

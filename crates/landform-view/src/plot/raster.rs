@@ -66,13 +66,26 @@ impl Page<'_> {
         /// Samples along either side of a pixel.
         const SAMPLES: usize = 4;
         let offset = |sample: usize| (sample as f32 + 0.5) / SAMPLES as f32;
-        for (column, row) in Window::around(corners, 1.0, self).pixels() {
-            let samples = (0..SAMPLES * SAMPLES).map(|sample| {
-                let [x, y] = [sample % SAMPLES, sample / SAMPLES].map(offset);
-                [column as f32 + x, row as f32 + y]
-            });
-            let inside = samples.filter(|&sample| is_inside(sample, corners)).count();
-            self.ink(column, row, colour, inside as f32 / (SAMPLES * SAMPLES) as f32);
+        let window = Window::around(corners, 1.0, self);
+        let mut inside = vec![0_u8; window.columns];
+        for row in window.top..window.top + window.rows {
+            inside.fill(0);
+            for sample in 0..SAMPLES {
+                let ends = crossings(row as f32 + offset(sample), corners);
+                for &[from, to] in ends.as_chunks().0 {
+                    // The number of samples left of a place.
+                    let before = |x: f32| {
+                        let samples = (x - window.left as f32) * SAMPLES as f32;
+                        (samples - 0.5).ceil().max(0.0) as usize
+                    };
+                    let last = before(to).min(SAMPLES * window.columns);
+                    (before(from)..last).for_each(|sample| inside[sample / SAMPLES] += 1);
+                }
+            }
+            for (column, &count) in inside.iter().enumerate() {
+                let share = f32::from(count) / (SAMPLES * SAMPLES) as f32;
+                self.ink(window.left + column, row, colour, share);
+            }
         }
     }
 
@@ -180,16 +193,15 @@ fn distance(place: Place, from: Place, to: Place) -> f32 {
     (away[0] - share * along[0]).hypot(away[1] - share * along[1])
 }
 
-/// Whether a place lies in a polygon, by the number of edges to its right.
-fn is_inside([x, y]: Place, corners: &[Place]) -> bool {
-    let mut inside = false;
-    for (index, &[x1, y1]) in corners.iter().enumerate() {
-        let [x2, y2] = corners[(index + 1) % corners.len()];
-        if (y1 > y) != (y2 > y) && x < x1 + (y - y1) / (y2 - y1) * (x2 - x1) {
-            inside = !inside;
-        }
-    }
-    inside
+/// Where the edges of a polygon cross a row, from the left: its inside lies between the first and
+/// the second, the third and the fourth, and so on.
+fn crossings(y: f32, corners: &[Place]) -> Vec<f32> {
+    let next = corners.iter().cycle().skip(1);
+    let edges = corners.iter().zip(next).filter(|([_, y1], [_, y2])| (*y1 > y) != (*y2 > y));
+    let mut places: Vec<f32> =
+        edges.map(|([x1, y1], [x2, y2])| x1 + (y - y1) / (y2 - y1) * (x2 - x1)).collect();
+    places.sort_by(f32::total_cmp);
+    places
 }
 
 /// The dashes of a line; the whole line when there are none.
@@ -255,6 +267,35 @@ mod tests {
         let line = page(line, None);
         assert!((ink(&line) - 6.0).abs() < 1.0, "{}", ink(&line));
         assert_eq!(line.pixel(3, 2), [0; 3]);
+    }
+
+    /// A place lies in a polygon that has an odd number of edges to its right.
+    fn is_inside([x, y]: Place, corners: &[Place]) -> bool {
+        let next = corners.iter().cycle().skip(1);
+        let right = corners.iter().zip(next).filter(|([x1, y1], [x2, y2])| {
+            (*y1 > y) != (*y2 > y) && x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)
+        });
+        right.count() % 2 == 1
+    }
+
+    #[test]
+    fn a_pixel_is_covered_by_the_samples_inside() {
+        // A star that crosses itself, and a comb with corners on samples.
+        let star = vec![[4.0, 0.3], [6.1, 5.7], [0.4, 2.2], [7.7, 2.4], [1.9, 5.6]];
+        let comb = vec![[0.125, 5.0], [1.0, 0.625], [2.125, 4.0], [3.0, 1.0], [6.625, 5.125]];
+        for corners in [star, comb] {
+            let drawn = page(Shape::Fill { corners: corners.clone(), colour: [0; 3] }, None);
+            for (pixel, colour) in drawn.rgb.iter().enumerate() {
+                let corner = [pixel % 8, pixel / 8].map(|at| at as f32);
+                let sample = |sample: usize| {
+                    [corner[0] + (sample % 4) as f32 / 4.0, corner[1] + (sample / 4) as f32 / 4.0]
+                        .map(|at| at + 0.125)
+                };
+                let inside = (0..16).filter(|&each| is_inside(sample(each), &corners)).count();
+                let found = (1.0 - f64::from(colour[0]) / 255.0) * 16.0;
+                assert!((found - inside as f64).abs() < 0.05, "{pixel}: {found}, not {inside}");
+            }
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What stands in a panel: points with errors, lines, rules and notes.
+//! What stands in a panel: points with errors, lines, areas, rules and notes.
 
 /// A point of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +66,16 @@ impl Series {
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
         Self { name: name.into(), points, line: None, marker: None, colour: None, width: None }
     }
+}
+
+/// A filled polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Area {
+    /// Its corners as values along both axes. An area with a corner that cannot be drawn is left
+    /// out.
+    pub corners: Vec<[f64; 2]>,
+    /// Its colour, sRGB.
+    pub colour: [u8; 3],
 }
 
 /// A dotted rule across a panel.

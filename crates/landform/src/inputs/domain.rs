@@ -6,6 +6,7 @@ use std::sync::Arc;
 use landform_graph::Lattice;
 use landform_io::Raster;
 use landform_sim::domain::{Border, Domain, DomainSource, Neighbourhood};
+use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,9 @@ pub enum Gaps {
     Refuse,
     /// They get the lowest elevation of the raster, as if the sea were there.
     Lowest,
+    /// They do not belong to the map, whose open border runs round them: water that reaches it is
+    /// gone. They hold the elevation of the nearest cell with data, and outputs write no data there.
+    Outside,
 }
 
 /// A grid with the size, the spacing and the place of a raster file (GeoTIFF, ESRI ASCII, NPY).
@@ -77,17 +81,29 @@ impl DomainSource for RasterDomain {
         let mut remarks = Vec::new();
         self.fill_gaps(&mut raster, &path, &mut remarks)?;
         let spacing_m = self.spacing(&raster, &mut remarks)?;
-        let raster = super::raster::thin(raster, self.every.max(1));
+        let mut raster = super::raster::thin(raster, self.every.max(1));
         let boundary = [self.boundary.0.into(), self.boundary.1.into()];
         let spacing_m = spacing_m * self.every.max(1) as f64;
         let connectivity = self.connectivity.into();
         let lattice = Lattice::plane(raster.size(), spacing_m, connectivity, boundary)
             .map_err(|error| Problem::new("path", error.to_string(), "a larger raster"))?;
+        let missing: Vec<bool> = raster.values.iter().map(|value| value.is_nan()).collect();
+        let outside = Outside::new(&lattice, &missing);
+        outside.extend(&mut raster.values);
+        raster.complete(&path).map_err(|error| {
+            Problem::new("path", error.to_string(), "data at one of the nodes that are kept")
+        })?;
+        if !outside.is_empty() {
+            let count = outside.pairs().len();
+            remarks.push(format!("{count} nodes without data lie outside the map"));
+        }
         Ok(Domain {
-            lattice,
             raster: Some(raster.values.into()),
             georeference: raster.georeference.map(|place| Arc::new(place) as Arc<_>),
+            no_data: raster.no_data,
+            outside,
             remarks,
+            ..Domain::from(lattice)
         })
     }
 }
@@ -103,16 +119,19 @@ impl RasterDomain {
         let Some([lowest, _]) = raster.range() else {
             return Err(Problem::new("path", "the raster has no data at all", "elevations"));
         };
-        if missing == 0 {
-            return Ok(());
+        match self.gaps {
+            _ if missing == 0 => {}
+            Gaps::Refuse => {
+                let error = raster.complete(path).err().map_or(String::new(), |e| e.to_string());
+                return Err(Problem::new("path", error, "a value in every cell")
+                    .help("or choose what becomes of them: gaps: Outside, gaps: Lowest"));
+            }
+            Gaps::Lowest => {
+                raster.values.iter_mut().filter(|v| v.is_nan()).for_each(|value| *value = lowest);
+                remarks.push(format!("{missing} cells without data were set to {lowest} m"));
+            }
+            Gaps::Outside => {}
         }
-        if self.gaps == Gaps::Refuse {
-            let error = raster.complete(path).err().map_or(String::new(), |e| e.to_string());
-            return Err(Problem::new("path", error, "a value in every cell")
-                .help("or choose what stands in for them: gaps: Lowest"));
-        }
-        raster.values.iter_mut().filter(|v| v.is_nan()).for_each(|value| *value = lowest);
-        remarks.push(format!("{missing} cells without data were set to {lowest} m"));
         Ok(())
     }
 
@@ -129,8 +148,12 @@ impl RasterDomain {
         match (ground, raster.spacing_m()) {
             (Some([east, north]), _) if east > 0.0 && north > 0.0 => {
                 let spacing_m = (east * north).sqrt();
+                let error = |side: f64| 100.0 * (side / spacing_m - 1.0);
                 remarks.push(format!(
-                    "cells of {east:.1} m by {north:.1} m are taken as squares of {spacing_m:.1} m"
+                    "cells of {east:.1} m by {north:.1} m are taken as squares of {spacing_m:.1} m: \
+                     slopes are off by {:+.0} % from east to west and {:+.0} % from north to south",
+                    error(east),
+                    error(north),
                 ));
                 Ok(spacing_m)
             }

@@ -81,7 +81,8 @@ pub(super) fn read(path: &Path, parameter: &str) -> Result<Raster, Problem> {
     read_raster(path).map_err(|error| Problem::new(parameter, error.to_string(), ""))
 }
 
-/// Every `step`-th column and row of a raster, from the north-west corner.
+/// Every `step`-th column and row of a raster, from the north-west corner. The middles of the cells
+/// that are left stay where they are.
 pub(super) fn thin(raster: Raster, step: usize) -> Raster {
     if step == 1 {
         return raster;
@@ -94,6 +95,9 @@ pub(super) fn thin(raster: Raster, step: usize) -> Raster {
         .map(|cell| raster.values[cell])
         .collect();
     let georeference = raster.georeference.map(|mut place| {
+        let grown = 0.5 * (step as f64 - 1.0);
+        place.west -= grown * place.cell_size[0];
+        place.north += grown * place.cell_size[1];
         place.cell_size = place.cell_size.map(|size| size * step as f64);
         place
     });

@@ -125,9 +125,8 @@ impl ShorelineDomain {
         let land = within_rings(&lattice, &rings).into();
         Ok(Domain {
             georeference: Some(Arc::new(georeference(corner, &lattice, plane))),
-            lattice,
             raster: Some(land),
-            remarks: Vec::new(),
+            ..Domain::from(lattice)
         })
     }
 }

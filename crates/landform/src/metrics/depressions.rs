@@ -8,7 +8,7 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{check_plane, columns, grid, heights, refusal};
+use super::{check_plane, columns, grid, map_heights, refusal};
 
 /// Depressions of a field: what a flood that drains over the borders of the domain would fill.
 /// Their number, share of the area, volume and greatest depth, 8 neighbours a node. The borders
@@ -39,7 +39,7 @@ impl Metric for Depressions {
     }
 
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let heights = heights(snapshot, &self.field)?;
+        let heights = map_heights(snapshot, &self.field)?;
         let found = hydrology::Depressions::new(&grid(snapshot)?, &heights);
         let found = found.map_err(|error| refusal(&error))?;
         Ok(columns([

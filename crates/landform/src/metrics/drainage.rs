@@ -11,7 +11,7 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{check_plane, columns, grid, heights, refusal};
+use super::{check_plane, columns, grid, map_heights, refusal};
 
 /// What water does that comes to a pit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -56,7 +56,7 @@ impl Metric for Drainage {
     }
 
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let heights = heights(snapshot, &self.field)?;
+        let heights = map_heights(snapshot, &self.field)?;
         self.laws(&grid(snapshot)?, heights).map_err(|error| refusal(&error))
     }
 }

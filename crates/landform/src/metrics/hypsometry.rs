@@ -9,7 +9,7 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{check_plane, columns, heights};
+use super::{check_plane, columns, map_heights};
 
 /// Hypsometry of a field (thesis, section 2.4.1): the integral, Strahler's a/d and z and the
 /// misfit of his model curve (equation 2.9), the stage of erosion as one column a stage that is
@@ -71,7 +71,7 @@ impl Metric for Hypsometry {
         first: &mut FirstCurve,
         snapshot: &Snapshot<'_>,
     ) -> Result<Vec<(String, f64)>, Problem> {
-        let Ok(curve) = HypsometricCurve::new(&heights(snapshot, &self.field)?) else {
+        let Ok(curve) = HypsometricCurve::new(&map_heights(snapshot, &self.field)?) else {
             return Ok(Vec::new());
         };
         let found = analysis::Hypsometry::new(&curve);

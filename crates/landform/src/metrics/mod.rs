@@ -30,6 +30,13 @@ fn heights(snapshot: &Snapshot<'_>, field: &str) -> Result<Vec<f64>, Problem> {
     snapshot.field(field).map_err(|error| refusal(&error))
 }
 
+/// The same for metrics that know of missing values: NaN at nodes outside the map.
+fn map_heights(snapshot: &Snapshot<'_>, field: &str) -> Result<Vec<f64>, Problem> {
+    let mut heights = heights(snapshot, field)?;
+    snapshot.domain().outside.blank(&mut heights);
+    Ok(heights)
+}
+
 /// The grid that the nodes of a run are the cells of. Its borders are outlets, also those of
 /// periodic axes.
 fn grid(snapshot: &Snapshot<'_>) -> Result<Grid, Problem> {

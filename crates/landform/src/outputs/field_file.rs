@@ -108,12 +108,22 @@ pub(super) fn values<'a>(
     Ok((snapshot.field(name).map_err(unknown)?, snapshot.entry(name).map_err(unknown)?))
 }
 
-/// The values of a field of the run as a raster in its place on Earth, or at the origin.
-pub(super) fn raster_of(snapshot: &Snapshot<'_>, values: Vec<f64>) -> Raster {
-    let lattice = snapshot.lattice();
+/// Values of a field, NaN at nodes outside the map.
+pub(super) fn map_values(snapshot: &Snapshot<'_>, name: &str) -> Result<Vec<f64>, Problem> {
+    let (mut values, _) = values(snapshot, name)?;
+    snapshot.domain().outside.blank(&mut values);
+    Ok(values)
+}
+
+/// The values of a field of the run as a raster in its place on Earth, or at the origin; without
+/// data outside the map.
+pub(super) fn raster_of(snapshot: &Snapshot<'_>, mut values: Vec<f64>) -> Raster {
+    let (lattice, domain) = (snapshot.lattice(), snapshot.domain());
+    domain.outside.blank(&mut values);
     let [width, height, _] = lattice.size();
     let mut raster = Raster::local(width, height, lattice.spacing(), values);
-    let place = snapshot.domain().georeference.as_ref();
+    raster.no_data = domain.no_data;
+    let place = domain.georeference.as_ref();
     if let Some(place) = place.and_then(|place| place.downcast_ref::<Georeference>()) {
         raster.georeference = Some(place.clone());
     }

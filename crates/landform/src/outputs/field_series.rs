@@ -88,7 +88,7 @@ impl Sink for SeriesSink {
         }
         if when.is_due(moment, snapshot) {
             let tick = snapshot.clock().tick as f64;
-            let values = |name: &String| field_file::values(snapshot, name).map(|found| found.0);
+            let values = |name: &String| field_file::map_values(snapshot, name);
             let values = fields.iter().map(values).collect::<Result<Vec<_>, _>>()?;
             let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
             if let Some(writer) = &mut self.writer {

@@ -176,6 +176,7 @@ impl Sink for FigureSink {
                 values: array(array_name(index, state))?,
                 water: depths.transpose()?,
                 unit: unit(snapshot, &panel.field),
+                outside: snapshot.domain().outside.clone(),
             });
         }
         Ok(())

@@ -72,7 +72,7 @@ impl FileOutput for LevelLines {
     }
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
-        let (values, _) = field_file::values(snapshot, &self.field)?;
+        let values = field_file::map_values(snapshot, &self.field)?;
         let lattice = snapshot.lattice();
         let size = [lattice.width(), lattice.height()];
         let lines = |level: &f64| {

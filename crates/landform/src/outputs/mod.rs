@@ -32,7 +32,7 @@ pub use island_table::IslandTable;
 pub use lake_outlines::LakeOutlines;
 pub use landform_sim::output::When;
 pub use level_lines::LevelLines;
-pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief, WaterDepths};
+pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief, Section, WaterDepths};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;
@@ -41,5 +41,5 @@ pub use series_file::SeriesFile;
 pub use voxel_mesh::VoxelMesh;
 
 pub(crate) use field_file::write_field;
-pub(crate) use look::Subject;
-pub(crate) use mesh::write_mesh;
+pub(crate) use look::{Subject, water_of};
+pub(crate) use mesh::{WaterOver, write_mesh};

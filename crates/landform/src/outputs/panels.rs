@@ -176,6 +176,7 @@ impl PanelSink {
             values: array(array_name(state, look))?,
             water: water.map(|_| array(water_name(state, look))).transpose()?,
             unit: snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into()),
+            outside: snapshot.domain().outside.clone(),
         })
     }
 

@@ -89,7 +89,7 @@ impl FileOutput for RiverLines {
     }
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
-        let values = |name: &String| field_file::values(snapshot, name).map(|found| found.0);
+        let values = |name: &String| field_file::map_values(snapshot, name);
         let ground = Ground {
             bed: values(&self.bed)?,
             depths: self.water.as_ref().map(values).transpose()?,

@@ -223,6 +223,9 @@ pub(crate) struct ExportArguments {
     /// File to write
     #[arg(long, value_name = "FILE")]
     pub to: PathBuf,
+    /// Name of the field of water depths whose surface goes into a mesh beside the ground (`water`)
+    #[arg(long)]
+    pub depths: Option<String>,
     /// Replace the file if it is there
     #[arg(long)]
     pub force: bool,

@@ -7,7 +7,7 @@ use landform_view::ColourMap;
 
 use super::arguments::ExportArguments;
 use super::{Failure, Outcome, talk};
-use crate::outputs::write_mesh;
+use crate::outputs::{WaterDepths, WaterOver, water_of, write_mesh};
 
 /// Writes the field of the arguments.
 pub(super) fn export(arguments: &ExportArguments) -> Outcome {
@@ -17,16 +17,30 @@ pub(super) fn export(arguments: &ExportArguments) -> Outcome {
         false => IfExists::Refuse,
     };
     let extension = arguments.to.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let water = water(arguments, &extension).map_err(Failure::Refused)?;
     let written = match extension.as_str() {
         "obj" | "ply" | "glb" | "stl" => {
             let colours =
                 ColourMap::named("sand").map_err(|error| Failure::Refused(error.to_string()))?;
-            write_mesh(&arguments.to, &file.raster, &file.metadata, colours, if_exists)
+            let drawn = (colours, water);
+            write_mesh(&arguments.to, &file.raster, &file.metadata, drawn, if_exists)
         }
         _ => write_raster(&arguments.to, &file.raster, &file.metadata, if_exists),
     };
     written.map_err(|error| Failure::Refused(error.to_string()))?;
     talk::say(&format!("{}\n", arguments.to.display()))
+}
+
+/// The water over a mesh, if it is asked for.
+fn water(arguments: &ExportArguments, extension: &str) -> Result<Option<WaterOver>, String> {
+    let Some(field) = &arguments.depths else { return Ok(None) };
+    if !matches!(extension, "obj" | "ply" | "glb") {
+        return Err("--depths adds water to a mesh; write to .glb, .obj or .ply".to_owned());
+    }
+    let depths = field_of(&arguments.folder, field)?.raster.values;
+    let look =
+        water_of(None, Some(&WaterDepths { field: field.clone(), ..WaterDepths::default() }));
+    Ok(look.map(|look| WaterOver { look, depths: Some(depths) }))
 }
 
 /// The field of a run's folder.

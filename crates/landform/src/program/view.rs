@@ -2,6 +2,7 @@
 
 use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_io::{RasterFile, ReadLimits, read_raster_file};
+use landform_sim::outside::Outside;
 
 use super::arguments::{LookName, ViewArguments};
 use super::{Failure, Outcome, export, talk};
@@ -19,7 +20,6 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     }
     let file = source(arguments).map_err(Failure::Refused)?;
     let raster = &file.raster;
-    raster.complete(&arguments.source).map_err(|error| Failure::Refused(error.to_string()))?;
     // A raster that does not say its spacing is drawn as if its nodes were a metre apart.
     let spacing_m = raster.spacing_m().ok().or(file.metadata.spacing_m).or_else(|| {
         let [east, north] = raster.georeference.as_ref()?.ground_cell_size_m(raster.size());
@@ -34,7 +34,11 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     .map_err(|error| Failure::Refused(error.to_string()))?;
     let unit = file.metadata.unit.as_deref().unwrap_or("m");
     let water = water(arguments).map_err(Failure::Refused)?;
-    let subject = Subject { values: raster.values.clone(), water, unit: unit.to_owned() };
+    let missing: Vec<bool> = raster.values.iter().map(|value| value.is_nan()).collect();
+    let outside = Outside::new(&lattice, &missing);
+    let mut values = raster.values.clone();
+    outside.extend(&mut values);
+    let subject = Subject { values, water, unit: unit.to_owned(), outside };
     let image = look(arguments)
         .draw(&lattice, &subject)
         .map_err(|error| Failure::Refused(error.to_string()))?;
@@ -60,7 +64,10 @@ fn water(arguments: &ViewArguments) -> Result<Option<Vec<f64>>, String> {
     if !arguments.source.is_dir() {
         return Err("--depths names a field of a run; give the run's output folder".to_owned());
     }
-    export::field_of(&arguments.source, field).map(|file| Some(file.raster.values))
+    export::field_of(&arguments.source, field).map(|file| {
+        let depths = file.raster.values.into_iter();
+        Some(depths.map(|depth| if depth.is_nan() { 0.0 } else { depth }).collect())
+    })
 }
 
 fn look(arguments: &ViewArguments) -> Look {

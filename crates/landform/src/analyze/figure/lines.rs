@@ -53,7 +53,7 @@ fn map(analysis: &LineAnalysis) -> Panel {
         y: axis("km from the southern end", 1),
         series: vec![line],
         caption: format!("{projection}{} km long", short(analysis.numbers.length_m / 1000.0)),
-        equal: true,
+        exaggeration: Some(1.0),
         ..Panel::default()
     }
 }

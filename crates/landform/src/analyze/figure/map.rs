@@ -51,7 +51,7 @@ pub(super) fn map(
         colours: Some(ColourScale { ground: pictured.ground()?, range: pictured.range_m, label }),
         series,
         caption: caption(streams, pictured.sea),
-        equal: true,
+        exaggeration: Some(1.0),
         ..Panel::default()
     })
 }

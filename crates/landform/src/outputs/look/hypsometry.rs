@@ -29,7 +29,8 @@ const PIXELS_PER_UNIT: f64 = 1.5;
 type State<'a> = (&'a str, &'a [f64]);
 
 impl Curve {
-    pub(super) fn draw(&self, values: &[f64]) -> Result<Image, ViewError> {
+    /// The plot of the curve, empty for a field without one.
+    pub(super) fn figure(&self, values: &[f64]) -> Figure {
         let mut series = Vec::new();
         if let Ok(curve) = HypsometricCurve::new(values) {
             let found = Hypsometry::new(&curve);
@@ -52,10 +53,10 @@ impl Curve {
                 let (line, width, colour) = (Some(Line::Solid), Some(width), Some(colour));
                 Some(Series { line, width, colour, ..Series::new(name, measured(&curve)) })
             });
-        self.plot(series.collect())
+        self.plot(series.collect()).image()
     }
 
-    fn plot(&self, series: Vec<Series>) -> Result<Image, ViewError> {
+    fn plot(&self, series: Vec<Series>) -> Figure {
         let axis = |label: &str| Axis { range: Some([0.0, 1.0]), ..Axis::linear(label) };
         let panel = Panel {
             x: axis("share of the area above"),
@@ -71,7 +72,6 @@ impl Curve {
             pixels_per_unit: PIXELS_PER_UNIT,
             ..Figure::default()
         }
-        .image()
     }
 
     /// What the curve says in numbers, none for a flat field.

@@ -1,11 +1,14 @@
 //! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice or
-//! a body of a volume, as a spectrum, as a hypsometric curve.
+//! a body of a volume, as a spectrum, as a hypsometric curve, as a section.
 
 mod flat;
+mod gaps;
 mod hypsometry;
 mod passages;
 mod perspective;
+mod profile;
 mod relief;
+mod section;
 mod slice;
 mod subject;
 mod text;
@@ -15,14 +18,16 @@ pub use hypsometry::Curve;
 pub use passages::Passages;
 pub use perspective::Perspective;
 pub use relief::Relief;
+pub use section::Section;
 pub use slice::Slice;
 pub use subject::WaterDepths;
 
-pub(crate) use subject::Subject;
+pub(crate) use subject::{Subject, water_of};
 pub(crate) use text::{picture_text, problem, write_picture};
 
 use landform_graph::Lattice;
 use landform_sim::parameters::Problem;
+use landform_view::plot::Figure;
 use landform_view::relief::shaded_relief;
 use landform_view::{ColourMap, Ground, HeightField, Image, MOST_PIXELS, ViewError};
 use schemars::JsonSchema;
@@ -45,6 +50,8 @@ pub enum Look {
     Spectrum(Density),
     /// The hypsometric curve of the field.
     Hypsometry(Curve),
+    /// Ground and water along a line across the map.
+    Section(Section),
 }
 
 impl Default for Look {
@@ -73,23 +80,57 @@ impl Look {
         periodic: bool,
         subject: &Subject,
     ) -> Result<Image, ViewError> {
-        let values = &subject.values;
-        let heights = || {
+        let Subject { values, outside, .. } = subject;
+        let field = |values| {
             let bare = HeightField::new(width, height, spacing_m, values)?;
             subject.water.as_deref().map_or(Ok(bare), |depths| bare.with_water(depths))
         };
         match self {
-            Self::Relief(relief) => shaded_relief(&heights()?, &relief.options(periodic)?),
-            Self::Perspective(view) => {
-                landform_view::perspective::render(&heights()?, &view.options()?)
+            Self::Relief(relief) => {
+                let mut map = shaded_relief(&field(values)?, &relief.options(periodic)?)?;
+                gaps::paint(outside, [width, height], &mut map);
+                Ok(map)
             }
-            Self::Flat(flat) => flat.draw(values, width, height, &subject.unit),
+            Self::Perspective(view) => {
+                let cut = gaps::cut_off(outside, values);
+                landform_view::perspective::render(&field(&cut)?, &view.options()?)
+            }
+            Self::Flat(flat) => {
+                flat.draw(&gaps::blank(outside, values), width, height, &subject.unit)
+            }
             // Of a plane there is but one.
             Self::Slice(slice) => slice.flat().draw(values, width, height, &subject.unit),
             Self::Passages(passages) => passages.trial(),
             Self::Spectrum(density) => density.draw(values, [width, height]),
-            Self::Hypsometry(curve) => curve.draw(values),
+            Self::Hypsometry(curve) => curve.figure(values).image(),
+            Self::Section(section) => section.figure([width, height], spacing_m, subject)?.image(),
         }
+    }
+
+    /// The plot that it draws of a field of `lattice`; none for looks that are no plots.
+    pub(crate) fn figure(
+        &self,
+        lattice: &Lattice,
+        subject: &Subject,
+    ) -> Option<Result<Figure, ViewError>> {
+        match self {
+            Self::Hypsometry(curve) => Some(Ok(curve.figure(&subject.values))),
+            Self::Section(section) => {
+                let size = [lattice.width(), lattice.height()];
+                Some(section.figure(size, lattice.spacing(), subject))
+            }
+            Self::Relief(_)
+            | Self::Perspective(_)
+            | Self::Flat(_)
+            | Self::Slice(_)
+            | Self::Passages(_)
+            | Self::Spectrum(_) => None,
+        }
+    }
+
+    /// Whether it is a plot, which can be written as SVG.
+    pub(crate) fn is_plot(&self) -> bool {
+        matches!(self, Self::Hypsometry(_) | Self::Section(_))
     }
 
     /// The field of water depths that it draws over heights.
@@ -97,6 +138,7 @@ impl Look {
         match self {
             Self::Relief(relief) => relief.water.as_ref(),
             Self::Perspective(view) => view.water.as_ref(),
+            Self::Section(section) => section.water.as_ref(),
             Self::Flat(_)
             | Self::Slice(_)
             | Self::Passages(_)
@@ -112,11 +154,15 @@ impl Look {
     }
 
     /// What the picture says in numbers, for looks that measure: RMS and R2 of a spectrum, as
-    /// the thesis prints them below its plots, or the hypsometric integral and stage.
+    /// the thesis prints them below its plots, the hypsometric integral and stage, or the
+    /// exaggeration of a section.
     pub(crate) fn numbers(&self, lattice: &Lattice, values: &[f64]) -> Option<String> {
         match self {
             Self::Spectrum(_) => Density::numbers(values, [lattice.width(), lattice.height()]),
             Self::Hypsometry(_) => Curve::numbers(values),
+            Self::Section(section) => {
+                section.numbers([lattice.width(), lattice.height()], lattice.spacing(), values)
+            }
             Self::Relief(_)
             | Self::Perspective(_)
             | Self::Flat(_)
@@ -131,10 +177,12 @@ impl Look {
         let [width, height] = match self {
             Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
             Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
-            Self::Hypsometry(curve) => <[usize; 2]>::from(curve.size).map(|size| size as f64),
             Self::Passages(passages) => <[usize; 2]>::from(passages.size).map(|size| size as f64),
             Self::Slice(slice) => {
                 slice.size(lattice).map(|voxels| (voxels * slice.pixels_per_node) as f64)
+            }
+            Self::Hypsometry(Curve { size }) | Self::Section(Section { size, .. }) => {
+                <[usize; 2]>::from(*size).map(|size| size as f64)
             }
             Self::Flat(Flat { pixels_per_node, .. })
             | Self::Spectrum(Density { pixels_per_node, .. }) => {
@@ -155,7 +203,10 @@ impl Look {
                 "the look Slice, which shows one of them, or Passages",
             ));
         }
-        let heights = matches!(self, Self::Relief(_) | Self::Perspective(_));
+        if let Self::Section(section) = self {
+            section.check()?;
+        }
+        let heights = matches!(self, Self::Relief(_) | Self::Perspective(_) | Self::Section(_));
         if heights && lattice.width().min(lattice.height()) < 2 {
             let message = format!("{} x {} nodes span no surface", nodes[0], nodes[1]);
             return Err(Problem::new("look", message, "at least 2 x 2 nodes, or the look Flat"));
@@ -171,7 +222,7 @@ impl Look {
             view.size = (SIDE, SIDE);
         }
         let flat = vec![0.0; SIDE * SIDE];
-        let subject = Subject { water: Some(flat.clone()), values: flat, unit: String::new() };
+        let subject = Subject { water: Some(flat.clone()), values: flat, ..Subject::default() };
         small.picture([SIDE, SIDE], 1.0, false, &subject)
     }
 
@@ -182,6 +233,7 @@ impl Look {
             Self::Perspective(view) => view.range_m,
             Self::Flat(flat) => flat.range,
             Self::Slice(slice) => slice.range,
+            Self::Section(section) => section.range_m,
             Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
@@ -193,6 +245,7 @@ impl Look {
             Self::Perspective(view) => view.range_m = Some(range),
             Self::Flat(flat) => flat.range = Some(range),
             Self::Slice(slice) => slice.range = Some(range),
+            Self::Section(section) => section.range_m = Some(range),
             Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => {}
         }
         self

@@ -1,5 +1,6 @@
 //! What pictures show: a field, and the water over it.
 
+use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::Water;
@@ -30,7 +31,7 @@ impl Default for WaterDepths {
 }
 
 /// The water of a look: at a level, of depths, or both.
-pub(super) fn water_of(level_m: Option<f64>, depths: Option<&WaterDepths>) -> Option<Water> {
+pub(crate) fn water_of(level_m: Option<f64>, depths: Option<&WaterDepths>) -> Option<Water> {
     /// Thickness of a sea below which the ground shows through.
     const CLEAR_SEA_M: f64 = 10.0;
     match (level_m, depths) {
@@ -51,6 +52,8 @@ pub(crate) struct Subject {
     pub water: Option<Vec<f64>>,
     /// Unit of the values.
     pub unit: String,
+    /// The nodes that do not belong to the map.
+    pub outside: Outside,
 }
 
 impl Subject {
@@ -59,6 +62,7 @@ impl Subject {
         let (values, entry) = field_file::values(snapshot, field)?;
         let depths = look.water().map(|water| field_file::values(snapshot, &water.field));
         let water = depths.transpose()?.map(|(depths, _)| depths);
-        Ok(Self { values, water, unit: entry.unit.to_owned() })
+        let outside = snapshot.domain().outside.clone();
+        Ok(Self { values, water, unit: entry.unit.to_owned(), outside })
     }
 }
