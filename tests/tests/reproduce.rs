@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use landform_tests::{Ended, Program, SMALL, Scratch};
+use landform_tests::{Ended, Program, SMALL, Scratch, write_hills};
 use serde_json::Value;
 
 const TARGETS: &str = r#"(
@@ -125,6 +125,86 @@ fn runs_are_changed_repeated_and_put_together() {
         let message = reproduce().line("--force").run().refused();
         assert!(message.contains(part), "{to}: no `{part}` in\n{message}");
     }
+}
+
+const DATA: &str = r#"(
+    id: "figure 0.2",
+    title: "hills",
+    seeds: 2,
+    columns: 1,
+    analyses: [(name: "hills", file: "hills.tif"), (name: "dales", file: "dales.tif")],
+    targets: [
+        (
+            name: "hills, one of two stages",
+            value: Sum(
+                (run: "hills", stage: "analysis", metric: "hypsometry_unusual"),
+                (run: "hills", stage: "analysis", metric: "hypsometry_equilibrium"),
+            ),
+            band: AtLeast(0.0),
+        ),
+        (
+            name: "hills, R2",
+            value: Metric(run: "hills", stage: "analysis", metric: "spectral_r2"),
+            band: Printed,
+        ),
+        (
+            name: "hills less dales, integral",
+            value: Difference(
+                (run: "hills", stage: "analysis", metric: "hypsometry_integral"),
+                (run: "dales", stage: "analysis", metric: "hypsometry_integral"),
+            ),
+            band: AtLeast(0.0),
+            reason: "hills are higher",
+        ),
+    ],
+)"#;
+
+/// Numbers of data are reproduced where there are data, and neither that nor missed elsewhere.
+#[test]
+fn data_are_brought_by_the_user_or_absent() {
+    let scratch = Scratch::new("reproduce_data");
+    scratch.write("d.targets.ron", DATA);
+    fs::create_dir(scratch.path("data")).expect("a folder");
+    write_hills(&scratch.path("data/hills.tif"), 60, 44);
+    let run = |line: &str| {
+        Program::within(scratch.folder()).line("reproduce d.targets.ron").line(line).run()
+    };
+    let report = |folder: &str| -> Value {
+        let text = fs::read_to_string(scratch.path(folder).join("report.json")).expect("a report");
+        serde_json::from_str::<Value>(&text).expect("JSON")["figures"][0].clone()
+    };
+    let verdicts = |figure: &Value| -> Vec<String> {
+        let targets = figure["targets"].as_array().expect("targets");
+        targets.iter().map(|target| target["verdict"].as_str().unwrap().to_owned()).collect()
+    };
+    let told = run("-o without").good();
+    assert!(told.contains("Absent") && told.contains("--data DIR"), "{told}");
+    let figure = report("without");
+    assert_eq!(verdicts(&figure), ["absent"; 3]);
+    assert_eq!(figure["targets"][0]["value"], Value::Null);
+    assert_eq!(
+        (&figure["data"], &figure["pictures"]),
+        (&Value::Array(vec![]), &Value::Array(vec![]))
+    );
+
+    let told = run("-o with --data data").good();
+    assert!(told.contains("dales.tif is not in data"), "{told}");
+    let figure = report("with");
+    assert_eq!(verdicts(&figure), ["reproduced", "printed", "absent"]);
+    assert_eq!(figure["data"], Value::from(vec!["data/hills.tif"]));
+    assert_eq!(figure["pictures"], Value::from(vec!["figure_0_2.png", "hills/analysis.png"]));
+    assert!(scratch.path("with/hills/analysis.png").is_file());
+    // The same number as `landform analyze` gives.
+    let analysis = Program::within(scratch.folder()).line("analyze --json data/hills.tif").run();
+    let analysis: Value = serde_json::from_str(&analysis.good()).expect("JSON");
+    let r2 = &analysis["spectrum"]["untreated"]["r2"];
+    assert!(r2.is_f64() && figure["targets"][1]["value"] == *r2, "{r2}");
+
+    let message = run("-o none --data nowhere").refused();
+    assert!(message.contains("there is no folder nowhere"), "{message}");
+    fs::write(scratch.path("data/dales.tif"), "no raster").expect("a file");
+    let broken = run("-o broken --data data");
+    assert!(broken.status == Some(1) && broken.stderr.contains("dales.tif"), "{broken:?}");
 }
 
 #[test]

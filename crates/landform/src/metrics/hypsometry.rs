@@ -74,20 +74,25 @@ impl Metric for Hypsometry {
         let Ok(curve) = HypsometricCurve::new(&map_heights(snapshot, &self.field)?) else {
             return Ok(Vec::new());
         };
-        let found = analysis::Hypsometry::new(&curve);
-        let is = |yes: bool| Some(f64::from(u8::from(yes)));
-        let stage = |stage: HypsometricStage| is(found.stage == stage);
-        Ok(columns([
-            ("hypsometry_integral", Some(found.integral)),
-            ("hypsometry_a_over_d", Some(found.a_over_d)),
-            ("hypsometry_z", Some(found.z)),
-            ("hypsometry_misfit", Some(found.misfit)),
-            ("hypsometry_inequilibrium", stage(HypsometricStage::Inequilibrium)),
-            ("hypsometry_equilibrium", stage(HypsometricStage::Equilibrium)),
-            ("hypsometry_monadnock", stage(HypsometricStage::Monadnock)),
-            ("hypsometry_unusual", stage(HypsometricStage::Unusual)),
-            ("hypsometry_convex", is(found.form == HypsometricForm::Convex)),
-            ("hypsometry_change", Some(first.change(&curve))),
-        ]))
+        let mut values = hypsometry_columns(&analysis::Hypsometry::new(&curve));
+        values.push(("hypsometry_change".to_owned(), first.change(&curve)));
+        Ok(values)
     }
+}
+
+/// What a curve is in columns, but for its change.
+pub(crate) fn hypsometry_columns(found: &analysis::Hypsometry) -> Vec<(String, f64)> {
+    let is = |yes: bool| Some(f64::from(u8::from(yes)));
+    let stage = |stage: HypsometricStage| is(found.stage == stage);
+    columns([
+        ("hypsometry_integral", Some(found.integral)),
+        ("hypsometry_a_over_d", Some(found.a_over_d)),
+        ("hypsometry_z", Some(found.z)),
+        ("hypsometry_misfit", Some(found.misfit)),
+        ("hypsometry_inequilibrium", stage(HypsometricStage::Inequilibrium)),
+        ("hypsometry_equilibrium", stage(HypsometricStage::Equilibrium)),
+        ("hypsometry_monadnock", stage(HypsometricStage::Monadnock)),
+        ("hypsometry_unusual", stage(HypsometricStage::Unusual)),
+        ("hypsometry_convex", is(found.form == HypsometricForm::Convex)),
+    ])
 }

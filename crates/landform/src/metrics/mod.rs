@@ -20,6 +20,8 @@ pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
 pub use valleys::ValleyHeads;
 
+pub(crate) use hypsometry::hypsometry_columns;
+
 use landform_analysis::grid::Grid;
 use landform_graph::Lattice;
 use landform_sim::parameters::Problem;

@@ -242,6 +242,10 @@ pub(crate) struct ReproduceArguments {
     /// Number of seeds, instead of the file's
     #[arg(long)]
     pub seeds: Option<u64>,
+    /// Folder of the elevation data that figures of real ground need; without it their numbers are
+    /// absent
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
     /// Write into an existing folder; files of the same names are replaced
     #[arg(long)]
     pub force: bool,

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::arguments::ReproduceArguments;
 use super::{Failure, Outcome, folder, interrupt, memory, talk};
-use crate::reproduce::{Figure, FigureReport, check, measure};
+use crate::reproduce::{Figure, FigureReport, Places, Verdict, check, measure};
 
 /// What `report.json` holds.
 #[derive(Serialize)]
@@ -23,6 +23,11 @@ struct Reproduction {
 pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>) -> Outcome {
     let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
     let limits = Limits { memory_bytes };
+    let data = arguments.data.as_deref();
+    if let Some(missing) = data.filter(|data| !data.is_dir()) {
+        let message = format!("there is no folder {}", missing.display());
+        return Err(Failure::Refused(message));
+    }
     let mut figures = Vec::new();
     for name in &arguments.figures {
         let path = find(name).map_err(Failure::Refused)?;
@@ -44,11 +49,17 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        let report = measure(&figure, &base, &folder, registry, limits, &mut tell, &mut hook);
+        let places = Places { base: &base, data, output: &folder };
+        let report = measure(&figure, places, registry, limits, &mut tell, &mut hook);
         let report = report.map_err(|message| match interrupt::asked() {
             true => Failure::Interrupted(message),
             false => Failure::Failed(message),
         })?;
+        let absent = report.targets.iter().filter(|target| target.verdict == Verdict::Absent);
+        if let Some(first) = absent.clone().next() {
+            let (count, why) = (absent.count(), &first.reason);
+            talk::tell(&format!("{}: {count} numbers want data: {why}", figure.id));
+        }
         talk::say(&table(&report))?;
         reports.push(report);
     }
@@ -89,22 +100,27 @@ fn table(report: &FigureReport) -> String {
     );
     for target in &report.targets {
         let thesis = target.thesis.map_or("-".to_owned(), |value| value.to_string());
-        let low = target.seeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = target.seeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let digits = decimals(&thesis).max(decimals(&target.band)).max(2);
+        let (ours, seeds) = match target.value {
+            Some(value) => (format!("{value:.digits$}"), range(&target.seeds, digits)),
+            None => ("-".to_owned(), "-".to_owned()),
+        };
         text += &format!(
-            "  {:width$}  {thesis:>9}  {:>9.digits$}  {:>18}  {:>16}  {:?}\n",
-            target.name,
-            target.value,
-            format!("{low:.digits$} to {high:.digits$}"),
-            target.band,
-            target.verdict,
+            "  {:width$}  {thesis:>9}  {ours:>9}  {seeds:>18}  {:>16}  {:?}\n",
+            target.name, target.band, target.verdict,
         );
         if !target.reason.is_empty() {
             text += &format!("  {:width$}    {}\n", "", target.reason);
         }
     }
     text
+}
+
+/// The smallest and the largest of some numbers.
+fn range(values: &[f64], digits: usize) -> String {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    format!("{low:.digits$} to {high:.digits$}")
 }
 
 /// Most decimals of a number in a text.

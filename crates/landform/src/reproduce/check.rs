@@ -6,11 +6,12 @@ use std::sync::Arc;
 use landform_sim::registry::Registry;
 use landform_sim::simulation::Limits;
 
+use super::data::ANALYSIS;
 use super::measure::INITIAL;
 use super::{Figure, RunEntry, Source};
 
 /// Checks that every scenario of `figure` can run and that every number is taken from one of
-/// its runs and stages. `base` is the folder of the target file.
+/// its runs and stages. Files of data may be absent. `base` is the folder of the target file.
 ///
 /// # Errors
 /// A message that names the run or the target, what is wrong with it and what there is.
@@ -23,6 +24,10 @@ pub fn check(
     let mut stages = Vec::with_capacity(figure.runs.len());
     for run in &figure.runs {
         stages.push((run.name.as_str(), check_run(run, base, registry, limits)?));
+    }
+    for entry in &figure.analyses {
+        check_name(&entry.name)?;
+        stages.push((entry.name.as_str(), vec![ANALYSIS.to_owned()]));
     }
     for target in &figure.targets {
         for source in target.value.sources() {
@@ -50,11 +55,7 @@ fn check_run(
     registry: &Arc<Registry>,
     limits: Limits,
 ) -> Result<Vec<String>, String> {
-    let mut parts = Path::new(&run.name).components();
-    if !matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None)) {
-        let name = &run.name;
-        return Err(format!("the run `{name}` cannot name a folder; expected a plain name"));
-    }
+    check_name(&run.name)?;
     let mut stages = Vec::new();
     for copy in run.copies(1)? {
         let source = copy.open(&base.join(&run.scenario))?;
@@ -64,6 +65,15 @@ fn check_run(
     }
     stages.push(INITIAL.to_owned());
     Ok(stages)
+}
+
+/// Refuses a name that can be no folder.
+fn check_name(name: &str) -> Result<(), String> {
+    let mut parts = Path::new(name).components();
+    match (parts.next(), parts.next()) {
+        (Some(Component::Normal(_)), None) => Ok(()),
+        _ => Err(format!("the run `{name}` cannot name a folder; expected a plain name")),
+    }
 }
 
 fn check_source(source: &Source, stages: &[(&str, Vec<String>)]) -> Result<(), String> {

@@ -9,6 +9,7 @@ use landform_sim::scenario::ScenarioSource;
 use landform_sim::simulation::{Limits, ProgressHook, Report, Simulation};
 use serde::Serialize;
 
+use super::data::{ANALYSIS, Data};
 use super::targets::Copy;
 use super::{Figure, Quantity, RunEntry, Source, Target, sheet};
 
@@ -24,6 +25,8 @@ pub enum Verdict {
     Missed,
     /// There is no band: the number stands beside the thesis' own.
     Printed,
+    /// The data that it is taken from are not there: neither reproduced nor missed.
+    Absent,
 }
 
 /// Our numbers beside those of a figure.
@@ -35,6 +38,8 @@ pub struct FigureReport {
     pub title: String,
     /// The scenarios that made it.
     pub scenarios: Vec<PathBuf>,
+    /// The files of data that were analysed for it.
+    pub data: Vec<PathBuf>,
     /// Pictures of the first seed, relative to the output folder.
     pub pictures: Vec<PathBuf>,
     /// The numbers.
@@ -46,8 +51,8 @@ pub struct FigureReport {
 pub struct TargetReport {
     /// What it is.
     pub name: String,
-    /// Median over the seeds.
-    pub value: f64,
+    /// Median over the seeds; none where data are absent.
+    pub value: Option<f64>,
     /// The number of each seed, from seed 1.
     pub seeds: Vec<f64>,
     /// The thesis' number.
@@ -69,23 +74,34 @@ type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
 /// The runs of every name.
 type Runs<'a> = BTreeMap<&'a str, Vec<StageMetrics>>;
 
-/// Runs the scenarios of `figure` with every seed and compares.
+/// Folders that a figure has to do with.
+#[derive(Clone, Copy, Debug)]
+pub struct Places<'a> {
+    /// That of the target file, which its scenarios are relative to.
+    pub base: &'a Path,
+    /// That of the files of data; without it they are absent.
+    pub data: Option<&'a Path>,
+    /// Where pictures go: `output/RUN/`, those of the first seed.
+    pub output: &'a Path,
+}
+
+/// Runs the scenarios of `figure` with every seed, analyses its files of data, and compares.
 ///
-/// `base` is the folder of the target file; pictures of the first seed go to
-/// `folder/RUN/`. `tell` hears what is being run; `hook` follows each run and may end it.
+/// `tell` hears what is being run; `hook` follows each run and may end it.
 ///
 /// # Errors
-/// A message: a scenario that is refused or fails, or a metric that it does not have.
+/// A message: a scenario that is refused or fails, a file that cannot be analysed, or a metric that
+/// they do not have.
 pub fn measure(
     figure: &Figure,
-    base: &Path,
-    folder: &Path,
+    places: Places<'_>,
     registry: &Arc<Registry>,
     limits: Limits,
     tell: &mut dyn FnMut(&str),
     hook: &mut dyn ProgressHook,
 ) -> Result<FigureReport, String> {
     let mut values = vec![Vec::new(); figure.targets.len()];
+    let data = Data::analyze(figure, places, limits, tell)?;
     let mut drawn = Vec::new();
     for seed in 1..=figure.seeds {
         let mut metrics = Runs::new();
@@ -93,29 +109,38 @@ pub fn measure(
             let mut copies = Vec::new();
             for (index, copy) in run.copies(seed)?.iter().enumerate() {
                 tell(&what(run, copy, figure.seeds));
-                let place = (seed == 1 && index == 0).then(|| folder.join(&run.name));
-                let path = base.join(&run.scenario);
+                let place = (seed == 1 && index == 0).then(|| places.output.join(&run.name));
+                let path = places.base.join(&run.scenario);
                 let report = run_once(&path, copy, place.as_deref(), registry, limits, hook)?;
                 if place.is_some() {
-                    drawn.push(pictures(run, &report));
+                    drawn.push((run.name.as_str(), pictures(run, &report)));
                 }
                 copies.push(stages(report));
             }
             metrics.insert(&run.name, copies);
         }
+        for (name, found) in &data.analysed {
+            let metrics_of_file = [(ANALYSIS.to_owned(), found.metrics.clone())];
+            metrics.insert(name, vec![StageMetrics::from(metrics_of_file)]);
+        }
         for (target, values) in figure.targets.iter().zip(&mut values) {
-            values.push(quantity(&target.value, &metrics)?);
+            if data.absence(target).is_none() {
+                values.push(quantity(&target.value, &metrics)?);
+            }
         }
     }
-    let sheet = sheet::write(figure, &drawn, folder)?;
-    let pictures = sheet.into_iter().chain(drawn.into_iter().flatten()).collect();
-    let targets = figure.targets.iter().zip(values);
+    drawn.extend(data.analysed.iter().map(|(name, found)| (*name, vec![found.picture.clone()])));
+    let sheet = sheet::write(figure, &drawn, places.output)?;
+    let drawn = drawn.into_iter().flat_map(|(_, pictures)| pictures);
+    let judged = figure.targets.iter().zip(values);
+    let judged = judged.map(|(target, seeds)| judge(target, seeds, data.absence(target)));
     Ok(FigureReport {
         id: figure.id.clone(),
         title: figure.title.clone(),
         scenarios: figure.runs.iter().map(|run| run.scenario.clone()).collect(),
-        pictures,
-        targets: targets.map(|(target, seeds)| judge(target, seeds)).collect(),
+        data: data.analysed.iter().map(|(_, found)| found.file.clone()).collect(),
+        pictures: sheet.into_iter().chain(drawn).collect(),
+        targets: judged.collect(),
     })
 }
 
@@ -194,21 +219,24 @@ fn quantity(quantity: &Quantity, runs: &Runs<'_>) -> Result<f64, String> {
         Quantity::Metric(source) => first(source)?,
         Quantity::Ratio(of, to) => first(of)? / first(to)?,
         Quantity::Difference(of, less) => first(of)? - first(less)?,
+        Quantity::Sum(one, other) => first(one)? + first(other)?,
         Quantity::Smallest(source) => all(source)?.into_iter().fold(f64::INFINITY, f64::min),
         Quantity::Largest(source) => all(source)?.into_iter().fold(f64::NEG_INFINITY, f64::max),
     })
 }
 
-fn judge(target: &Target, seeds: Vec<f64>) -> TargetReport {
+/// Compares the numbers of a target; there are none where data are absent.
+fn judge(target: &Target, seeds: Vec<f64>, absence: Option<&str>) -> TargetReport {
     let mut sorted = seeds.clone();
     sorted.sort_by(f64::total_cmp);
-    let value = sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN);
+    let value = sorted.get(sorted.len() / 2).copied();
     let outside = seeds.iter().filter(|&&value| target.band.holds(value) == Some(false)).count();
-    let verdict = match target.band.holds(value) {
-        None => Verdict::Printed,
-        Some(false) => Verdict::Missed,
-        Some(true) if 4 * outside >= seeds.len() => Verdict::Partly,
-        Some(true) => Verdict::Reproduced,
+    let verdict = match value.map(|value| target.band.holds(value)) {
+        None => Verdict::Absent,
+        Some(None) => Verdict::Printed,
+        Some(Some(false)) => Verdict::Missed,
+        Some(Some(true)) if 4 * outside >= seeds.len() => Verdict::Partly,
+        Some(Some(true)) => Verdict::Reproduced,
     };
     TargetReport {
         name: target.name.clone(),
@@ -217,7 +245,7 @@ fn judge(target: &Target, seeds: Vec<f64>) -> TargetReport {
         thesis: target.thesis,
         band: target.band.to_string(),
         verdict,
-        reason: target.reason.clone(),
+        reason: absence.unwrap_or(&target.reason).to_owned(),
     }
 }
 
@@ -235,8 +263,8 @@ mod tests {
             band,
             reason: String::new(),
         };
-        let report = judge(&target, seeds.to_vec());
-        (report.value, report.verdict)
+        let report = judge(&target, seeds.to_vec(), None);
+        (report.value.unwrap_or(f64::NAN), report.verdict)
     }
 
     #[test]
@@ -266,6 +294,7 @@ mod tests {
             (Quantity::Smallest(a.clone()), 2.0),
             (Quantity::Largest(a), 5.0),
             (Quantity::Difference(b.clone(), b.clone()), 0.0),
+            (Quantity::Sum(b.clone(), b.clone()), 8.0),
             (Quantity::Ratio(b.clone(), b), 1.0),
         ] {
             assert_eq!(quantity(&asked, &runs), Ok(expected), "{asked:?}");

@@ -7,18 +7,18 @@ use landform_view::montage::{MontageOptions, Panel, Row, panels};
 
 use super::Figure;
 
-/// Writes a figure of the first pictures of all runs, `drawn` in their order, side by side, and
-/// returns its name in `folder`; `None` when none is asked for or nothing was drawn.
+/// Writes a figure of the first pictures of all runs and analyses, `drawn` with their names, side by
+/// side, and returns its name in `folder`; `None` when none is asked for or nothing was drawn.
 pub(super) fn write(
     figure: &Figure,
-    drawn: &[Vec<PathBuf>],
+    drawn: &[(&str, Vec<PathBuf>)],
     folder: &Path,
 ) -> Result<Option<PathBuf>, String> {
     let mut pictures = Vec::new();
-    for (run, drawn) in figure.runs.iter().zip(drawn) {
+    for (name, drawn) in drawn {
         let Some(first) = drawn.first() else { continue };
         let read = Image::read_png(&folder.join(first)).map_err(|error| error.to_string())?;
-        pictures.push(Panel { image: read.0, caption: run.name.clone() });
+        pictures.push(Panel { image: read.0, caption: (*name).to_owned() });
     }
     if figure.columns == 0 || pictures.is_empty() {
         return Ok(None);

@@ -18,7 +18,11 @@ pub struct Figure {
     #[serde(default)]
     pub columns: usize,
     /// The scenarios to run.
+    #[serde(default)]
     pub runs: Vec<RunEntry>,
+    /// The files of measured data to analyse, which the user has to bring.
+    #[serde(default)]
+    pub analyses: Vec<AnalysisEntry>,
     /// The numbers.
     pub targets: Vec<Target>,
 }
@@ -37,6 +41,16 @@ pub struct RunEntry {
     /// A parameter that runs of this name differ in; a single run when missing.
     #[serde(default)]
     pub over: Option<Over>,
+}
+
+/// A raster of measured heights to analyse.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AnalysisEntry {
+    /// Name within the file: its numbers belong to a run of this name and the stage `analysis`.
+    pub name: String,
+    /// The raster, relative to the folder of data that the user names.
+    pub file: PathBuf,
 }
 
 /// Runs of one name at equal distances of a parameter, each with a seed of its own.
@@ -126,6 +140,9 @@ pub enum Quantity {
     Ratio(Source, Source),
     /// The metric of one run less that of another.
     Difference(Source, Source),
+    /// The metric of one run and that of another together: of two stages that are 1 or 0, whether it
+    /// is one of them.
+    Sum(Source, Source),
     /// The smallest metric of the runs of one name: see [`RunEntry::over`].
     Smallest(Source),
     /// The largest metric of the runs of one name.
@@ -137,7 +154,9 @@ impl Quantity {
     pub(super) fn sources(&self) -> Vec<&Source> {
         match self {
             Self::Metric(source) | Self::Smallest(source) | Self::Largest(source) => vec![source],
-            Self::Ratio(first, second) | Self::Difference(first, second) => vec![first, second],
+            Self::Ratio(first, second)
+            | Self::Difference(first, second)
+            | Self::Sum(first, second) => vec![first, second],
         }
     }
 
