@@ -11,6 +11,7 @@
 //! | NetCDF `.nc`, series of fields ([`netcdf`]) | no | f64 | the file |
 //! | VTK image data `.vti`, planes and volumes ([`vtk`]) | no | f64 | the file |
 //! | OBJ, PLY, GLB, STL ([`mesh`]) | no | yes | the file |
+//! | cave surveys `.csv` ([`read_survey`]) | stations, legs | no | - |
 //! | CSV `.csv`, GeoJSON `.geojson` ([`lines`]) | lines | no | - |
 //!
 //! The sidecar of `height.npy` is `height.npy.json` ([`Sidecar`]). Every reader takes
@@ -57,6 +58,7 @@ mod sample;
 #[path = "../tests/support/mod.rs"]
 mod scratch;
 mod stored;
+mod survey;
 pub mod vtk;
 
 pub use atomic::{IfExists, write_atomically};
@@ -74,3 +76,4 @@ pub use mesh::{Body, Mesh, write_mesh, write_meshes};
 pub use metadata::{Encoding, Metadata, Sidecar};
 pub use raster::Raster;
 pub use sample::SampleType;
+pub use survey::{SurveyFile, is_survey, read_survey};

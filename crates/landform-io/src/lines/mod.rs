@@ -71,7 +71,7 @@ pub fn read_lines(path: impl AsRef<Path>, limits: &ReadLimits) -> Result<LineFil
     Ok(file)
 }
 
-fn text(path: &Path) -> Result<String, IoError> {
+pub(crate) fn text(path: &Path) -> Result<String, IoError> {
     let system = |error| IoError::system(path, "read", error);
     let kind = std::fs::metadata(path).map_err(system)?.file_type();
     // Opening a pipe waits until somebody writes.

@@ -15,7 +15,7 @@ use crate::{
     Encoding, Fault, IfExists, IoError, Metadata, Raster, ReadLimits, SampleType, Sidecar,
 };
 
-pub use read::{Array, read_array};
+pub use read::{Array, read_array, read_shape};
 
 /// Reads a raster, with its sidecar when there is one.
 ///

@@ -53,6 +53,16 @@ pub fn read_array(path: &Path, limits: &ReadLimits) -> Result<Array, IoError> {
     Ok(Array { shape, values })
 }
 
+/// The sizes along the axes of an array, without its numbers.
+///
+/// # Errors
+/// [`IoError`]: no such file, or another format.
+pub fn read_shape(path: &Path) -> Result<Vec<u64>, IoError> {
+    let file = File::open(path).map_err(|error| IoError::system(path, "read", error))?;
+    let header = read_header(&mut BufReader::new(file)).map_err(|fault| fault.reading(path))?;
+    Ok(header.0.shape)
+}
+
 /// Numbers converted at a time.
 const BLOCK: usize = 1 << 13;
 

@@ -1,5 +1,5 @@
-//! Analysis of files: everything that [`crate::analysis`] measures of a raster or of lines, in one
-//! call.
+//! Analysis of files: everything that [`crate::analysis`] measures of a raster, of lines or of a cave,
+//! in one call.
 //!
 //! [`analyze`] reads a file and measures it; what comes out is printed by [`Analysis::table`],
 //! written by [`Analysis::json`] and drawn by [`Analysis::figure`]. The program `landform analyze`
@@ -19,6 +19,7 @@
 //! What cannot be measured of a file (the spectrum of a flat terrain, a law of drainage of ten
 //! cells) is absent, and [`RasterNumbers::notes`] says why.
 
+mod cave;
 mod figure;
 mod lines;
 mod notes;
@@ -34,12 +35,13 @@ use std::path::{Path, PathBuf};
 
 use landform_analysis::grid::GridError;
 use landform_analysis::{DimensionError, PolylineError, ScaleRange};
-use landform_io::IoError;
+use landform_io::{IoError, npy};
 use landform_view::ViewError;
 use landform_view::plot::Figure;
 use serde::Serialize;
 use thiserror::Error;
 
+pub use cave::{Beside, CaveAnalysis, CaveNumbers};
 pub use lines::{LineAnalysis, LineNumbers};
 pub use raster::{Dimensions, Heights, RasterAnalysis, RasterNumbers};
 pub use shore::Shore;
@@ -53,16 +55,19 @@ pub use window::Window;
 pub struct Settings {
     /// Rulers of dividers and sides of boxes, for lines; without them [`ScaleRange::usual`].
     pub rulers: Option<ScaleRange>,
-    /// Side of the cells in metres, for rasters that do not say it or say something else.
+    /// Side of the cells in metres, for rasters that do not say it or say something else, and for
+    /// volumes, whose voxels have 1 m without it.
     pub spacing_m: Option<f64>,
+    /// Least value of the passages of a volume.
+    pub at_least: f64,
     /// Largest memory that the analysis of a file may take, in bytes: larger rasters are refused.
     pub memory_bytes: u64,
 }
 
 impl Default for Settings {
-    /// Usual rulers, the rasters' own cells, 8 GiB.
+    /// Usual rulers, the rasters' own cells, passages from 0.5, 8 GiB.
     fn default() -> Self {
-        Self { rulers: None, spacing_m: None, memory_bytes: 8 << 30 }
+        Self { rulers: None, spacing_m: None, at_least: 0.5, memory_bytes: 8 << 30 }
     }
 }
 
@@ -129,6 +134,8 @@ pub enum Analysis {
     Raster(Box<RasterAnalysis>),
     /// Lines.
     Lines(Box<LineAnalysis>),
+    /// A cave.
+    Cave(Box<CaveAnalysis>),
 }
 
 impl Analysis {
@@ -143,12 +150,13 @@ impl Analysis {
         match self {
             Self::Raster(raster) => table::raster(&raster.numbers),
             Self::Lines(lines) => table::lines(&lines.numbers),
+            Self::Cave(cave) => table::cave(&cave.numbers),
         }
     }
 
     /// A figure laid out as figure 4.22 of the thesis: of a raster the map with its streams, a view,
     /// the spectral density and the hypsometric curve; of lines the map, the length by dividers and
-    /// the number of boxes.
+    /// the number of boxes; of a cave its plan, its elevations and its measures.
     ///
     /// # Errors
     /// [`ViewError`] for terrains that no picture can show, such as heights beyond 1e12 m.
@@ -156,18 +164,27 @@ impl Analysis {
         match self {
             Self::Raster(raster) => figure::raster_figure(raster),
             Self::Lines(lines) => Ok(figure::lines_figure(lines)),
+            Self::Cave(cave) => Ok(figure::cave_figure(cave)),
         }
     }
 }
 
-/// Measures the lines of a `.csv`, `.geojson` or `.json` file, or the raster of any other.
+/// Measures the lines of a `.csv`, `.geojson` or `.json` file, the cave of a survey in `.csv`
+/// ([`landform_io::read_survey`]) or of a volume in `.npy`, or the raster of any other file.
 ///
 /// # Errors
 /// See [`AnalyzeError`].
 pub fn analyze(path: &Path, settings: &Settings) -> Result<Analysis, AnalyzeError> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ending == "csv" && landform_io::is_survey(path) {
+        return Ok(Analysis::Cave(Box::new(CaveAnalysis::survey(path, settings)?)));
+    }
     if ["csv", "geojson", "json"].contains(&ending.as_str()) {
         return Ok(Analysis::Lines(Box::new(LineAnalysis::read(path, settings)?)));
+    }
+    if ending == "npy" && path.is_file() && npy::read_shape(path).is_ok_and(|axes| axes.len() == 3)
+    {
+        return Ok(Analysis::Cave(Box::new(CaveAnalysis::voxels(path, settings)?)));
     }
     let terrain = Terrain::read(path, settings)?;
     Ok(Analysis::Raster(Box::new(RasterAnalysis::new(terrain))))

@@ -5,7 +5,8 @@ use landform_analysis::{Dimension, Hypsometry};
 use serde::Serialize;
 
 use super::{
-    Heights, LineNumbers, RasterNumbers, Shore, SlopeQuantiles, Spectral, SpectralNumbers,
+    CaveNumbers, Heights, LineNumbers, RasterNumbers, Shore, SlopeQuantiles, Spectral,
+    SpectralNumbers,
 };
 
 /// The lines of a raster.
@@ -65,6 +66,56 @@ pub(super) fn lines(numbers: &LineNumbers) -> String {
     line("box", numbers.boxes.as_ref().map(|found| dimension(found, "boxes")));
     for note in &numbers.notes {
         line("note", Some(note.clone()));
+    }
+    text
+}
+
+/// The lines of a cave.
+pub(super) fn cave(numbers: &CaveNumbers) -> String {
+    let shape = &numbers.shape;
+    let mut text = format!(
+        "{}: {}, {} stations, {} legs, {} m\n",
+        numbers.file,
+        numbers.kind,
+        numbers.stations,
+        numbers.legs,
+        short(shape.length_m)
+    );
+    let mut line = |name: &str, words: String| text += &format!("  {name:<24} {words}\n");
+    let parts = format!(
+        "{}, {} loops in {} parts",
+        shape.branches, shape.cyclomatic_number, shape.components
+    );
+    line("branches", parts);
+    for beside in &numbers.observed {
+        let [least, most] = beside.range.map(short);
+        let value = beside.value.map_or_else(|| "-".to_owned(), short);
+        let verdict = match beside.within {
+            Some(true) => ", within",
+            Some(false) => ", outside",
+            None => "",
+        };
+        line(
+            &beside.name.replace('_', " "),
+            format!("{value} ({least} to {most} in 31 caves{verdict})"),
+        );
+    }
+    if let Some(indices) = &numbers.indices {
+        let totals = indices.totals;
+        line(
+            "volume",
+            format!("{} m³ over {} m of height", short(totals.volume_m3), short(totals.height_m)),
+        );
+        line(
+            "area",
+            format!("{} m², on the map {} m²", short(totals.area_m2), short(totals.plan_area_m2)),
+        );
+        line("cave field", format!("{} m²", short(totals.field_m2)));
+        line("network density", format!("{} m/m²", short(indices.network_density)));
+        line("areal coverage", format!("{} %", short(indices.areal_coverage_percent)));
+        line("porosity", format!("{} %", short(indices.porosity_percent)));
+        line("length to width", short(indices.length_to_width));
+        line("width", format!("{} m", short(indices.width_m)));
     }
     text
 }

@@ -1,4 +1,4 @@
-//! `landform analyze`: measures of rasters and lines.
+//! `landform analyze`: measures of rasters, lines and caves.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,8 +12,12 @@ use crate::analyze::{Analysis, Settings, analyze};
 /// Analyses every file of the arguments; one that is wrong does not stop the others.
 pub(super) fn run(arguments: &AnalyzeArguments) -> Outcome {
     let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(Failure::Refused)?;
-    let settings =
-        Settings { rulers: arguments.rulers, spacing_m: arguments.spacing_m, memory_bytes };
+    let settings = Settings {
+        rulers: arguments.rulers,
+        spacing_m: arguments.spacing_m,
+        at_least: arguments.at_least,
+        memory_bytes,
+    };
     let mut results = Results::new(arguments)?;
     for path in &arguments.files {
         match analyze(path, &settings) {

@@ -253,7 +253,8 @@ pub(crate) struct ReproduceArguments {
 
 #[derive(Args)]
 pub(crate) struct AnalyzeArguments {
-    /// Rasters (.tif, .asc, .npy, grey .png) and lines (.csv, .geojson)
+    /// Rasters (.tif, .asc, .npy, grey .png), lines (.csv, .geojson), and caves: surveys (.csv) and
+    /// volumes (.npy with three axes)
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// Print JSON instead of a table
@@ -268,6 +269,9 @@ pub(crate) struct AnalyzeArguments {
     /// Write into an existing folder; files of the same names are replaced
     #[arg(long, requires = "output")]
     pub force: bool,
+    /// Least value of the passages of a volume
+    #[arg(long, value_name = "VALUE", default_value_t = 0.5)]
+    pub at_least: f64,
     /// Side of the cells in metres, for rasters that do not say it or say something else
     #[arg(long, value_name = "METRES")]
     pub spacing_m: Option<f64>,

@@ -1,5 +1,6 @@
 //! Figures of an analysis, laid out as figure 4.22 of the thesis.
 
+mod cave;
 mod density;
 mod lines;
 mod map;
@@ -9,6 +10,7 @@ mod view;
 
 use landform_view::plot::{Axis, Note, Panel};
 
+pub(super) use cave::figure as cave_figure;
 pub(super) use lines::figure as lines_figure;
 pub(super) use raster::figure as raster_figure;
 pub(super) use streams::Streams;
