@@ -159,6 +159,10 @@ mod commands {
             write_shore(&scratch.path(name));
         }
         scratch.write("coast.csv", coast());
+        scratch.write(
+            "cave_legs.csv",
+            "x1,y1,z1,x2,y2,z2\n0,0,0,9,0,-2\n9,0,-2,9,7,-2\n9,0,-2,15,0,1\n",
+        );
         scratch
     }
 

@@ -58,7 +58,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  landform view out/dunes -o dunes.png\n  \
         landform view dem.tif -o dem.png --look perspective --colours batlow")]
     View(ViewArguments),
-    /// Measure rasters and lines: spectra, hypsometry, fractal dimensions, slopes, drainage
+    /// Measure rasters, lines and caves: spectra, hypsometry, fractal dimensions, slopes, drainage
     #[command(after_help = "Examples:\n  landform analyze dem.tif\n  \
         landform analyze dem.tif -o out/dem\n  \
         landform analyze coast.csv --rulers 2km..100km\n  \

@@ -60,7 +60,7 @@ fn view(
         y,
         series: vec![series],
         caption,
-        equal: true,
+        exaggeration: Some(1.0),
         ..Panel::default()
     }
 }
