@@ -79,7 +79,9 @@ impl AnalysisEntry {
         let analysis = analyze(path, &settings).map_err(|error| error.to_string())?;
         let metrics = match &analysis {
             Analysis::Raster(raster) => metrics(&raster.numbers),
-            Analysis::Lines(_) => return Err(format!("{}: expected a raster", path.display())),
+            Analysis::Lines(_) | Analysis::Cave(_) => {
+                return Err(format!("{}: expected a raster", path.display()));
+            }
         };
         let figure = analysis.figure().map_err(|error| format!("{}: {error}", path.display()))?;
         let picture = Path::new(&self.name).join("analysis.png");
