@@ -1,15 +1,23 @@
-//! Water columns: nanoseconds a wet cell and sweep.
+//! Water columns: nanoseconds a wet cell and sweep. Stream power: nanoseconds a cell and step.
 //!
 //! The ground is a spectral fractional Brownian surface (Hurst 0.8) of 10 m cells under rain, which
 //! has flowed for 40 sweeps and stands in its hollows. `copy` writes as many levels as there are
 //! cells: what memory alone costs. With one of a hundred basins wet, the time is again that of a
 //! wet cell. Pipes cost the same wet or dry.
+//!
+//! Stream power begins on such ground of 100 m cells, which is full of depressions; `young` are its first
+//! ten steps, `old` those after a hundred. `flood` is that of analysis with directions and areas, on the
+//! same ground: what fill, routes and areas alone cost there.
 
 mod measure;
 
 use std::hint::black_box;
 
+use landform::analysis::grid::Grid;
+use landform::analysis::hydrology::{FlowDirections, fill_depressions};
 use landform::graph::{Boundary, Connectivity, Lattice};
+use landform::rivers::StreamPowerErosion;
+use landform::rivers::stream_power::{Creep, Evolution};
 use landform::rivers::water::{Algorithm, Columns, PipeSettings, Sweeper};
 use landform::synth::{Generator, SpectralFbm};
 use measure::{Effort, pairs, table};
@@ -30,6 +38,14 @@ fn main() {
             sweeps(effort, &eight, "pipes, eight", pipes, "");
             sweeps(effort, &ground(side, Connectivity::Four), "pipes, four", pipes, "35 ns");
             few_wet(effort, &eight);
+        }
+        let sides: &[usize] = match effort {
+            Effort::Quick => &[512],
+            Effort::Normal => &[512, 1024],
+            Effort::Full => &[512, 1024, 2048],
+        };
+        for &side in sides {
+            mountains(effort, side);
         }
     });
 }
@@ -123,4 +139,53 @@ fn few_wet(effort: Effort, ground: &(Lattice, Vec<f64>)) {
     };
     let pair = pairs(effort.rounds(5), part, rest);
     pair.print(&format!("one basin, {0}x{0}", lattice.width()), "a hundred, a wet cell", "1.0");
+}
+
+/// Stream power with and without creep, and creep alone.
+fn mountains(effort: Effort, side: usize) {
+    let lattice = Lattice::plane([side; 2], 100.0, Connectivity::Eight, [Boundary::Open; 2]);
+    let lattice = lattice.expect("a lattice");
+    let fbm = SpectralFbm { amplitude_m: 250.0, ..SpectralFbm::default() };
+    let start = fbm.generate(&lattice, 1).expect("a terrain");
+    let streams = StreamPowerErosion { diffusivity_m2_per_yr: 0.0, ..Default::default() };
+    let name = |name: &str| format!("stream power, {name}, {side}x{side}");
+    let steps = effort.rounds(10);
+    for (age, settled, settings) in [
+        ("young", 0, streams.clone()),
+        ("old", 100, streams.clone()),
+        ("old, n = 2", 100, StreamPowerErosion { slope_exponent: 2.0, ..streams.clone() }),
+        ("old, with creep", 100, StreamPowerErosion { diffusivity_m2_per_yr: 0.1, ..streams }),
+    ] {
+        let mut bed = start.clone();
+        let mut evolution = Evolution::new(&lattice, &settings).expect("a plane");
+        let mut step = |bed: &mut [f64]| evolution.step(bed, &[]).expect("a step");
+        (0..settled).for_each(|_| _ = step(&mut bed));
+        let flooded = bed.clone();
+        let pair = pairs(
+            steps,
+            || {
+                step(&mut bed);
+                side * side
+            },
+            || flood(&lattice, &flooded),
+        );
+        pair.print(&name(age), "flood", "260 ns");
+    }
+    let mut creep = Creep::new(&lattice).expect("a plane");
+    let mut bed = start.clone();
+    let steps = || {
+        creep.run(&mut bed, &[], [20.0, 0.2], &mut []);
+        20 * side * side
+    };
+    let copy = || black_box(&start).clone().len();
+    pairs(effort.rounds(5), steps, copy).print(&name("a step of creep"), "copy", "0.5 ns");
+}
+
+/// Fills, routes and accumulates.
+fn flood(lattice: &Lattice, bed: &[f64]) -> usize {
+    let grid = Grid::new([lattice.width(), lattice.height()], [lattice.spacing(); 2]);
+    let grid = grid.expect("a grid");
+    let filled = fill_depressions(&grid, bed).expect("a terrain");
+    let directions = FlowDirections::over_filled(&grid, &filled).expect("a terrain");
+    black_box(directions.contributing_cells()).len()
 }

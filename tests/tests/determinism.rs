@@ -35,7 +35,9 @@ const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_
 const LEVELS: &str = "(field: \"level_set\", from: SmoothNoise(mean_m: 5.0))";
 const ON_LEVEL: &str = "(field: \"on_level_set\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.3))";
 const PORES: &str = "(field: \"porosity\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.2))";
+const RISE: &str = "(field: \"uplift\", from: WhiteNoise(mean_m: 1e-3, amplitude_m: 1e-3))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
+const TORUS_OF_EIGHT: (&str, &str) = ("Eight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
 const BELT: (&str, &str) = ("Eight", "(Open, Periodic)");
 const PLATE: (&str, &str) = ("Eight", "(Open, Open)");
@@ -128,6 +130,13 @@ const GOLDEN: &[Case] = &[
     case("WaterColumn(algorithm: Hydrostatic())", &[HILLS, LAKE], ISLAND, 0x82b6_0a96_5e1c_1209),
     case("WaterColumn(), HydraulicErosion()", &[HILLS, LAKE], PLATE, 0x8c9e_9989_1257_8a5f),
     case("AreaMapErosion()", &[HILLS], PLATE, 0x83e3_302c_0d21_90ed),
+    case("StreamPowerErosion(step_yr: 1000.0)", &[HILLS], PLATE, 0x10a1_c0ef_ed6d_4c1e),
+    case(
+        "StreamPowerErosion(slope_exponent: 2.0, sea_level_m: 0.0, base_level: [])",
+        &[HILLS, RISE],
+        TORUS_OF_EIGHT,
+        0x771e_b72c_3186_1a03,
+    ),
     case(
         "HydraulicErosion(diffusion: Everywhere, diffusion_m2: 0.5, uplift_m: 0.1)",
         &[HILLS, FLOW],

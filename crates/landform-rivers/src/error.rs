@@ -65,6 +65,17 @@ pub enum RiverError {
          `connectivity: Eight, boundary: (Open, Open)` in the domain"
     )]
     Unsuited(Connectivity),
+    /// The lattice does not have the eight directions that rivers run in.
+    #[error(
+        "drainage areas need eight neighbours; the lattice joins {0:?}: write \
+         `connectivity: Eight` in the domain"
+    )]
+    Directions(Connectivity),
+    /// Water has no way out.
+    #[error(
+        "water cannot leave: there is no side of `base_level`, and no ground below a `sea_level_m`"
+    )]
+    NoOutlet,
     /// Water cannot be routed over the heights.
     #[error("{0}")]
     Routing(GridError),

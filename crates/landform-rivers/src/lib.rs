@@ -6,7 +6,8 @@
 //!
 //! [`water`] is water with a depth: columns that stand on the ground and flow to lower neighbours.
 //! [`erosion`] is the thesis' hydraulic erosion by that flow; [`area_map`] the model that it starts
-//! from, with the area that a node drains in place of flow.
+//! from, with the area that a node drains in place of flow. [`stream_power`] solves that model in years
+//! and for time steps of any length, as landscape evolution models do.
 
 pub mod area_map;
 pub mod captures;
@@ -16,6 +17,7 @@ mod frame;
 pub mod lakes;
 mod plugin;
 pub mod slope_area;
+pub mod stream_power;
 pub mod water;
 
 pub use area_map::AreaMapErosion;
@@ -26,6 +28,7 @@ pub use plugin::{
     WaterColumn,
 };
 pub use slope_area::{DrainageArea, ErodingSites, Pits, SlopeAreaErosion};
+pub use stream_power::{ErosionRate, StreamPowerErosion, Uplift};
 
 use landform_sim::registry::Registry;
 
@@ -33,7 +36,7 @@ use landform_sim::registry::Registry;
 pub fn register(registry: &mut Registry) {
     registry.process::<SlopeAreaErosion>();
     registry.process::<WaterColumn>().process::<HydraulicErosion>();
-    registry.process::<AreaMapErosion>();
+    registry.process::<AreaMapErosion>().process::<StreamPowerErosion>();
     registry.metric::<StandingWater>().metric::<Channels>().metric::<FlowDensity>();
     registry.metric::<TributaryCaptures>();
 }

@@ -18,4 +18,5 @@ mod tests;
 
 pub use kernel::{Event, drain, unstable_sites};
 pub use params::{Pits, SlopeAreaErosion};
+pub(crate) use plugin::drainage_area_log10;
 pub use plugin::{DrainageArea, ErodingSites};

@@ -27,6 +27,15 @@ impl NodeField for DrainageArea {
     const LEAST: f64 = 0.0;
 }
 
+/// Offers the decimal logarithm of [`DrainageArea`], for pictures.
+pub(crate) fn drainage_area_log10(uses: &mut Declaration) {
+    let logarithm = |world: &World| {
+        stored_values::<DrainageArea>(world).iter().map(|area| area.max(1.0).log10()).collect()
+    };
+    let meaning = "decimal logarithm of the drainage area in m2";
+    uses.derives("drainage_area_log10", "1", meaning, logarithm);
+}
+
 /// The sites that were lowered in the latest iteration. A site that is lowered again stays a
 /// member; none is left when the terrain is at rest.
 pub struct ErodingSites;
@@ -44,16 +53,12 @@ impl Process for SlopeAreaErosion {
     const NAME: &'static str = "SlopeAreaErosion";
 
     fn declare(&self, uses: &mut Declaration) {
-        let logarithm = |world: &World| {
-            stored_values::<DrainageArea>(world).iter().map(|area| area.max(1.0).log10()).collect()
-        };
         uses.writes::<Bed>()
             .writes::<DrainageArea>()
             .group::<ErodingSites>()
             .conserves(Budget::volume::<Bed>(1e-12))
             .scratch(48);
-        let meaning = "decimal logarithm of the drainage area in m2";
-        uses.derives("drainage_area_log10", "1", meaning, logarithm);
+        drainage_area_log10(uses);
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
