@@ -47,6 +47,7 @@ mod radial;
 mod spectrum;
 mod summary;
 mod triple_log;
+mod valleys;
 pub mod voxels;
 
 pub use creases::Creases;
@@ -67,3 +68,4 @@ pub use radial::{PowerBin, RadialExponent, RadialSpectrum};
 pub use spectrum::{AnalysisError, Spectrum, Wave};
 pub use summary::SpectralSummary;
 pub use triple_log::TripleLogPlot;
+pub use valleys::{ValleySpacing, valley_spacing};

@@ -31,6 +31,7 @@ pub fn registry() -> Registry {
         .metric::<metrics::Depressions>()
         .metric::<metrics::Drainage>()
         .metric::<metrics::ValleyHeads>()
+        .metric::<metrics::ValleySpacing>()
         .metric::<metrics::CaveShape>();
     registry
         .output::<outputs::Picture>()

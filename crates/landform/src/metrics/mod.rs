@@ -8,6 +8,7 @@ mod hypsometry;
 mod shore;
 mod side_dimension;
 mod spectral;
+mod valley_spacing;
 mod valleys;
 
 pub use cave_shape::CaveShape;
@@ -18,6 +19,7 @@ pub use hypsometry::{FirstCurve, Hypsometry};
 pub use shore::{ShoreDimension, ShoreLevel};
 pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
+pub use valley_spacing::ValleySpacing;
 pub use valleys::ValleyHeads;
 
 pub(crate) use hypsometry::hypsometry_columns;
