@@ -55,6 +55,13 @@ impl Evolution {
         })
     }
 
+    /// Makes base level of more nodes: they keep their height and take the water.
+    pub fn keep(&mut self, nodes: impl IntoIterator<Item = usize>) {
+        self.base_level.extend(nodes);
+        self.base_level.sort_unstable();
+        self.base_level.dedup();
+    }
+
     /// Lets `bed` (elevation, metres) evolve for an iteration. `uplift` (m/yr), one a node or none at
     /// all, is added to the uplift of the settings.
     ///

@@ -9,6 +9,7 @@ use landform_sim::fault::Fault;
 use landform_sim::field::{Bed, Field, FieldMut, NodeField};
 use landform_sim::ledger::{Budget, Ledger};
 use landform_sim::nodes::Space;
+use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
 use landform_sim::process::{Begin, Declaration, Iterate, Process, ProcessApp, Settings};
 
@@ -77,11 +78,14 @@ struct Works(Evolution);
 fn lay_out(
     mut commands: Commands,
     settings: Res<Settings<StreamPowerErosion>>,
-    space: Res<Space>,
+    (space, outside): (Res<Space>, Res<Outside>),
     mut fault: ResMut<Fault>,
 ) {
     match Evolution::new(&space, &settings) {
-        Ok(evolution) => commands.insert_resource(Works(evolution)),
+        Ok(mut evolution) => {
+            evolution.keep(outside.nodes());
+            commands.insert_resource(Works(evolution));
+        }
         Err(error) => fault.raise(error.to_string()),
     }
 }

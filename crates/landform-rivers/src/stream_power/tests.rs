@@ -283,6 +283,22 @@ fn what_changed_is_booked() {
     }
 }
 
+/// Nodes without data keep their height, and water leaves there.
+#[test]
+fn kept_nodes_are_base_level() {
+    let lattice = plane([9, 9], OPEN);
+    let settings = StreamPowerErosion { base_level: Some(vec![Side::North]), ..Default::default() };
+    let mut evolution = Evolution::new(&lattice, &settings).unwrap();
+    let hole = lattice.node([4, 6, 0]);
+    evolution.keep([hole, 3]);
+    let mut bed = vec![1.0; 81];
+    bed[hole] = 0.5;
+    (0..50).for_each(|_| _ = evolution.step(&mut bed, &[]).unwrap());
+    assert_eq!((bed[hole], bed[3]), (0.5, 1.0));
+    assert!(evolution.routes().receiver(hole).is_none());
+    assert!(evolution.routes().cells()[hole] > 20);
+}
+
 /// Terrain, routes and losses do not depend on the number of threads.
 #[test]
 fn threads_do_not_change_the_bits() {
