@@ -1,8 +1,10 @@
 //! Whole caves: what they must do and what they keep.
 
 use super::*;
-use crate::courses::CourseScale;
-use crate::record::{CaveEventKind, CaveRecord};
+use crate::courses::{CourseScale, courses};
+use crate::place::box_nodes;
+use crate::record::{CaveEventKind, CaveRecord, starts};
+use crate::rock::ChannelLines;
 use landform_graph::{Boundary, Connectivity};
 
 fn law(rates: Rates, reach_m: f64) -> GrowthLaw {
@@ -132,4 +134,43 @@ fn a_cave_goes_on_from_its_fields() {
     assert_eq!(whole.porosity, taken_up.porosity);
     assert_eq!(whole.pressure, taken_up.pressure);
     assert_eq!(whole.record.drained, taken_up.record.drained);
+}
+
+/// Figures 5.6 and 5.7: with rock that resists, channels link up one after the other; with rock that
+/// hardly does, all reach the sink by themselves. Scaled rates change nothing.
+#[test]
+fn resistance_decides_how_channels_link() {
+    let own = |rates: Rates| {
+        let lattice =
+            Lattice::plane([96, 64], 1.0, Connectivity::Eight, [Boundary::Open; 2]).unwrap();
+        let line = |top: f64, end: [f64; 2]| vec![[top, 1.0, 0.0], [end[0], end[1], 0.0]];
+        let lines =
+            vec![line(0.05, [0.44, 0.21]), line(0.41, [0.67, 0.34]), line(0.64, [0.8, 0.55])];
+        let channels = ChannelLines { porosity: 0.4, lines, radius_m: 0.0 };
+        let rock = channels.fill(&lattice).unwrap().into_iter().map(|porosity| porosity.max(0.15));
+        let node = |east, north| box_nodes(&lattice, [east, north, 0.0], [0.0; 3]).unwrap()[0];
+        let tops = [node(0.05, 1.0), node(0.41, 1.0), node(0.64, 1.0)];
+        let ends = openings(&tops, &[node(1.0, 0.21)]);
+        let mut law = law(rates, 120.0);
+        if let Motion::Pressure { exponent, .. } = &mut law.motion {
+            *exponent = 8;
+        }
+        let mut run = Run::new(lattice.clone(), law, ends, rock.collect());
+        run.run(300);
+        let starts = starts(&run.record.drained, &run.growth.openings().sources, &run.pressure);
+        let courses = courses(&run.lattice, &run.pressure, &starts, SCALE);
+        assert_eq!(courses.len(), 3, "{rates:?}: {:?}", run.record);
+        assert!(
+            courses.iter().all(|course| run.pressure[course.trail[course.trail.len() - 1]] == 0.0)
+        );
+        let own = courses.iter().filter(|course| course.joins.is_none()).count();
+        let longest = courses.iter().map(|course| course.order + 1).max();
+        (own, longest, courses.iter().map(|course| course.loops).sum::<u32>())
+    };
+    let rates = |rock_per_m, channel_per_m| Rates { rock_per_m, channel_per_m };
+    let (own_courses, longest, loops) = own(rates(0.05, 0.001));
+    assert_eq!((own_courses, longest), (1, Some(3)));
+    assert!(loops >= 2, "{loops} phreatic loops");
+    assert_eq!(own(rates(0.0025, 0.001)), (3, Some(1), 0));
+    assert_eq!(own(rates(0.05, 0.02)), (3, Some(1), 0));
 }

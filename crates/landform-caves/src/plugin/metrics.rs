@@ -104,12 +104,16 @@ impl Metric for CaveCourses {
         let starts = starts(&record.drained, &works.growth.openings().sources, &pressure);
         let courses = courses(snapshot.lattice(), &pressure, &starts, works.scale);
         let events = |kind| record.count(kind) as f64;
-        let own = courses.iter().filter(|course| course.joins.is_none()).count();
+        let ends_at_sink =
+            |course: &&Course| course.trail.last().is_some_and(|&end| pressure[end] == 0.0);
+        let own =
+            courses.iter().filter(|course| course.joins.is_none()).filter(ends_at_sink).count();
+        let tributaries = courses.iter().filter(|course| course.joins.is_some()).count();
         let longest = courses.iter().map(|course| course.order + 1).max().unwrap_or(0);
         let loops = courses.iter().map(|course: &Course| course.loops).sum::<u32>();
         let values = [
             ("sources_drained", courses.len() as f64),
-            ("tributaries", (courses.len() - own) as f64),
+            ("tributaries", tributaries as f64),
             ("courses_own", own as f64),
             ("longest_sequence", f64::from(longest)),
             ("phreatic_loops", f64::from(loops)),

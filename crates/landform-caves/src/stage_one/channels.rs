@@ -24,7 +24,8 @@ pub struct Network {
 
 /// Protochannels from the `seeds` of sources to the `sinks` on the boundaries of their zones.
 ///
-/// The flow between two voxels of a zone is limited by the lesser porosity, and every protosink takes
+/// The flow between two voxels of a zone is limited by the lesser porosity, by which its way is also
+/// judged: an edge costs its length over that, so flow keeps to good rock. Every protosink takes
 /// at most an even share of what its source can give: without that limit the few nearest would take
 /// all. From each protosink a channel then goes back up the flow, to the neighbour from which most
 /// comes, until it meets its source. Two channels that meet go on as one, so the channels of a source
@@ -46,6 +47,10 @@ pub fn protochannels(
         true => (porosity[from].min(porosity[edge.node]).clamp(0.0, 1.0) * UNITS) as u32,
         false => 0,
     };
+    let cost = |from: usize, edge: &Edge| {
+        let porosity = porosity[from].min(porosity[edge.node]);
+        edge.distance / lattice.spacing() / porosity.clamp(1.0 / UNITS, 1.0)
+    };
     let leaving = |node: usize| -> u64 {
         lattice.neighbours(node).map(|edge| u64::from(capacity(node, &edge))).sum()
     };
@@ -59,7 +64,7 @@ pub fn protochannels(
     };
     let terminals: Vec<Terminal> =
         sinks.iter().map(|&(node, owner)| Terminal { node, most: share(owner) }).collect();
-    let mut largest = maximum_flow(lattice, capacity, &sources, &terminals)?;
+    let mut largest = maximum_flow(lattice, capacity, cost, &sources, &terminals)?;
     let reached = terminals.iter().zip(&largest.taken).filter(|(_, taken)| **taken > 0);
     let reached: Vec<usize> = reached.map(|(sink, _)| sink.node).collect();
     let mut channels = vec![0; lattice.node_count()];

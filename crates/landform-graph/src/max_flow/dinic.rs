@@ -1,22 +1,22 @@
 //! The search for paths and the flow along them.
 
-use super::Terminal;
+use super::{FlowError, Terminal};
+use crate::marching::Relaxation;
 use crate::{Edge, Lattice};
 
-/// Rank of nodes that no source reaches.
-const UNREACHED: u32 = u32::MAX;
-
 /// A flow on its way to the maximum.
-pub(super) struct Dinic<'a> {
+pub(super) struct Dinic<'a, C> {
     lattice: &'a Lattice,
+    /// What edges cost, and the width of the buckets in which nodes are ranked.
+    cost: (C, f64),
     /// Capacity that directed edges have left, by slot.
     residual: Vec<i32>,
-    /// Edges from the nearest source that has flow left.
-    rank: Vec<u32>,
+    /// Cost from the nearest source that has flow left; infinite where none reaches.
+    rank: Vec<f64>,
     /// First direction of each node that the phase has not found useless.
     next: Vec<u8>,
-    /// Nodes of the search by rank.
-    queue: Vec<u32>,
+    relaxation: Relaxation,
+    starts: Vec<usize>,
     /// Sources by node, with what they have left.
     supply: Vec<(usize, u64)>,
     /// Sinks in the order given, with what they still want.
@@ -35,10 +35,11 @@ struct Step {
     reverse: usize,
 }
 
-impl<'a> Dinic<'a> {
+impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
     pub(super) fn new(
         lattice: &'a Lattice,
         residual: Vec<i32>,
+        cost: (C, f64),
         sources: &[Terminal],
         sinks: &[Terminal],
     ) -> Self {
@@ -50,10 +51,12 @@ impl<'a> Dinic<'a> {
         let nodes = lattice.node_count();
         Self {
             lattice,
+            cost,
             residual,
-            rank: vec![UNREACHED; nodes],
+            rank: vec![f64::INFINITY; nodes],
             next: vec![0; nodes],
-            queue: Vec::new(),
+            relaxation: Relaxation::new(),
+            starts: Vec::new(),
             supply,
             demand: amounts(sinks),
             path: Vec::new(),
@@ -61,12 +64,21 @@ impl<'a> Dinic<'a> {
     }
 
     /// Raises the flow until it is a maximum.
-    pub(super) fn solve(&mut self) {
-        while self.rank_nodes() {
+    pub(super) fn solve(&mut self) -> Result<(), FlowError> {
+        let wanted = |demand: &[(usize, u64)]| {
+            demand.iter().map(|(_, wanted)| u128::from(*wanted)).sum::<u128>()
+        };
+        while self.rank_nodes()? {
+            let before = wanted(&self.demand);
             for sink in 0..self.demand.len() {
                 self.serve(sink);
             }
+            if wanted(&self.demand) == before {
+                // A step so cheap beside the way so far that it is lost in rounding.
+                return Err(FlowError::Precision);
+            }
         }
+        Ok(())
     }
 
     /// Capacity left by slot, and what the sinks still want.
@@ -74,46 +86,25 @@ impl<'a> Dinic<'a> {
         (self.residual, self.demand.into_iter().map(|(_, wanted)| wanted).collect())
     }
 
-    /// Ranks nodes until all sinks that want flow have a rank, or nothing is left to reach; false
-    /// if none of them can be reached.
-    fn rank_nodes(&mut self) -> bool {
-        self.rank.fill(UNREACHED);
+    /// Ranks all nodes that more can flow to; false if no sink that wants flow is among them.
+    fn rank_nodes(&mut self) -> Result<bool, FlowError> {
+        let Self { lattice, cost: (cost, width), residual, rank, starts, .. } = self;
+        rank.fill(f64::INFINITY);
+        starts.clear();
+        starts.extend(self.supply.iter().filter(|(_, left)| *left > 0).map(|&(node, _)| node));
+        starts.iter().for_each(|&node| rank[node] = 0.0);
+        let directions = lattice.directions();
+        let open_cost = |from: usize, edge: &Edge| match residual
+            [from * directions + usize::from(edge.direction)]
+            > 0
+        {
+            true => cost(from, edge),
+            false => f64::INFINITY,
+        };
+        self.relaxation.relax(lattice, rank, starts, *width, open_cost)?;
         self.next.fill(0);
-        self.queue.clear();
-        for &(node, _) in self.supply.iter().filter(|(_, left)| *left > 0) {
-            self.rank[node] = 0;
-            self.queue.push(node as u32);
-        }
         let wanting = self.demand.iter().filter(|(_, wanted)| *wanted > 0);
-        let mut missing: Vec<usize> = wanting.map(|&(node, _)| node).collect();
-        let sought = missing.len();
-        let mut head = 0;
-        while let Some(&node) = self.queue.get(head) {
-            if head == 0 || self.rank[node as usize] != self.rank[self.queue[head - 1] as usize] {
-                // A rank is complete: those below are all known.
-                missing.retain(|&sink| self.rank[sink] == UNREACHED);
-                if missing.is_empty() {
-                    break;
-                }
-            }
-            self.reach_from(node as usize);
-            head += 1;
-        }
-        missing.retain(|&sink| self.rank[sink] == UNREACHED);
-        missing.len() < sought
-    }
-
-    /// Ranks the neighbours to which more can flow.
-    fn reach_from(&mut self, node: usize) {
-        let rank = self.rank[node] + 1;
-        let first = node * self.lattice.directions();
-        for edge in self.lattice.neighbours(node) {
-            let left = self.residual[first + usize::from(edge.direction)];
-            if left > 0 && self.rank[edge.node] == UNREACHED {
-                self.rank[edge.node] = rank;
-                self.queue.push(edge.node as u32);
-            }
-        }
+        Ok(wanting.into_iter().any(|&(node, _)| self.rank[node].is_finite()))
     }
 
     /// Leads flow to a sink over paths of falling ranks until it has enough or none is left.
@@ -121,8 +112,8 @@ impl<'a> Dinic<'a> {
         let (end, _) = self.demand[sink];
         self.path.clear();
         let mut node = end;
-        while self.demand[sink].1 > 0 && self.rank[end] != UNREACHED {
-            if self.rank[node] == 0 && self.send(node, sink) {
+        while self.demand[sink].1 > 0 && self.rank[end].is_finite() {
+            if self.rank[node] == 0.0 && self.send(node, sink) {
                 self.path.clear();
                 node = end;
             } else if let Some(edge) = self.feeder(node) {
@@ -139,13 +130,16 @@ impl<'a> Dinic<'a> {
         }
     }
 
-    /// The edge to a neighbour one rank lower from which more can flow to this node.
+    /// The edge to a neighbour on the cheapest way from a source, from which more can flow to this node.
     fn feeder(&mut self, node: usize) -> Option<Edge> {
-        let below = self.rank[node].checked_sub(1)?;
-        while usize::from(self.next[node]) < self.lattice.directions() {
+        let rank = self.rank[node];
+        while rank > 0.0 && usize::from(self.next[node]) < self.lattice.directions() {
             if let Some(edge) = self.lattice.edge(node, self.next[node])
-                && self.rank[edge.node] == below
                 && self.residual[self.lattice.reverse_slot(&edge)] > 0
+                && let Some(back) = self.lattice.edge(edge.node, self.lattice.opposite(edge.direction))
+                // The rank is the least of these sums, so one of them is it to the last bit.
+                && self.rank[edge.node] < rank
+                && self.rank[edge.node] + (self.cost.0)(edge.node, &back) == rank
             {
                 return Some(edge);
             }

@@ -4,15 +4,18 @@
 //! its capacity, and a flow that does. The graph is the lattice itself, whose edges are computed:
 //! only the flow on them is stored, four bytes a slot ([`Lattice::slot`]).
 //!
-//! Scheme: Dinic (1970). A breadth-first search from the sources ranks nodes by their distance
-//! over edges with capacity left; then every sink that still wants flow searches backwards from
-//! rank to rank, where it seldom meets a dead end, until no path of falling ranks is left. Ranks go
-//! on to the farthest sink, so that a phase serves sinks at all distances. When no sink can be
-//! reached any more the flow is a maximum (Ford and Fulkerson 1956): what was reached and what was
-//! not are a cut without capacity left.
+//! Scheme: Dinic (1970), with distances that may be costs. Nodes are ranked by the cost of the
+//! cheapest way from a source over edges with capacity left; then every sink that still wants flow
+//! searches backwards along cheapest ways, where it seldom meets a dead end, until none is left. When no
+//! sink can be reached any more the flow is a maximum (Ford and Fulkerson 1956): what was reached and
+//! what was not are a cut without capacity left.
 //!
-//! Cost: a phase is a search over the nodes, and there are few phases in porous rock; the bound is
-//! one a node. All of it runs in a fixed order: the same flow on every run.
+//! The value of the flow does not depend on costs, but its ways do. When every edge costs 1 this is
+//! Dinic's algorithm; when edges cost their length over the porosity, flow keeps to good rock.
+//!
+//! Cost: a phase is a relaxation over the nodes ([`crate::marching::Relaxation`]). With edges of equal
+//! cost there are few phases, one a node at most; with costs that all differ every phase leads flow
+//! over one way to each sink. All of it runs in a fixed order: the same flow on every run.
 
 mod dinic;
 #[cfg(test)]
@@ -22,6 +25,7 @@ mod tests;
 
 use thiserror::Error;
 
+use crate::marching::MarchError;
 use crate::{Edge, Lattice};
 use dinic::Dinic;
 
@@ -50,7 +54,7 @@ pub struct MaximumFlow {
 }
 
 /// Why a maximum flow cannot be found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FlowError {
     /// A source or a sink is not a node of the lattice.
     #[error("terminal {node} does not exist; the lattice has nodes 0 to {}", nodes - 1)]
@@ -78,12 +82,30 @@ pub enum FlowError {
         /// Capacity that was given.
         capacity: u32,
     },
+    /// An edge costs nothing, less than nothing or no number.
+    #[error("the edge from node {from} to node {to} costs {cost}; give a positive number")]
+    Cost {
+        /// Node that the edge leaves.
+        from: usize,
+        /// Node that it enters.
+        to: usize,
+        /// Cost that was given.
+        cost: f64,
+    },
+    /// The costs of edges lie too far apart for their sums.
+    #[error("the costs of edges differ by more than 15 decimal places; give costs of like size")]
+    Precision,
+    /// Nodes cannot be ranked.
+    #[error(transparent)]
+    March(#[from] MarchError),
 }
 
 /// The largest flow from `sources` to `sinks` over edges of a capacity each.
 ///
 /// `capacity(from, edge)` is what may flow from `from` over the edge; it is asked twice for each
-/// directed edge and must answer the same. Flow may pass through sources and sinks.
+/// directed edge and must answer the same. `cost(from, edge)` is what the way over the edge costs, more
+/// than 0; only edges with a capacity, or with one on their reverse, are asked about. Flow may pass
+/// through sources and sinks.
 ///
 /// ```
 /// use landform_graph::max_flow::{Terminal, maximum_flow};
@@ -93,7 +115,7 @@ pub enum FlowError {
 /// let source = Terminal { node: 0, most: 100 };
 /// let sink = Terminal { node: 3, most: 100 };
 /// let capacity = |from: usize, edge: &landform_graph::Edge| porosity[from].min(porosity[edge.node]);
-/// let flow = maximum_flow(&lattice, capacity, &[source], &[sink])?;
+/// let flow = maximum_flow(&lattice, capacity, |_, _| 1.0, &[source], &[sink])?;
 /// assert_eq!(flow.value, 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -103,13 +125,15 @@ pub enum FlowError {
 pub fn maximum_flow(
     lattice: &Lattice,
     capacity: impl Fn(usize, &Edge) -> u32,
+    cost: impl Fn(usize, &Edge) -> f64,
     sources: &[Terminal],
     sinks: &[Terminal],
 ) -> Result<MaximumFlow, FlowError> {
     check_terminals(lattice, sources, sinks)?;
     let residual = capacities(lattice, &capacity)?;
-    let mut dinic = Dinic::new(lattice, residual, sources, sinks);
-    dinic.solve();
+    let width = bucket_width(lattice, &residual, &cost)?;
+    let mut dinic = Dinic::new(lattice, residual, (cost, width), sources, sinks);
+    dinic.solve()?;
     let (mut flow, wanted) = dinic.finish();
     for node in 0..lattice.node_count() {
         for edge in lattice.neighbours(node) {
@@ -154,4 +178,27 @@ fn capacities(
         }
     }
     Ok(capacities)
+}
+
+/// Twice the mean cost of the edges with a capacity: the width of buckets that makes ranking fast.
+fn bucket_width(
+    lattice: &Lattice,
+    capacities: &[i32],
+    cost: &impl Fn(usize, &Edge) -> f64,
+) -> Result<f64, FlowError> {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for from in 0..lattice.node_count() {
+        for edge in lattice.neighbours(from) {
+            let open = |slot: usize| capacities[slot] > 0;
+            if open(lattice.slot(from, &edge)) || open(lattice.reverse_slot(&edge)) {
+                let cost = cost(from, &edge);
+                if !(cost > 0.0 && cost.is_finite()) {
+                    return Err(FlowError::Cost { from, to: edge.node, cost });
+                }
+                sum += cost;
+                count += 1.0;
+            }
+        }
+    }
+    Ok(if count > 0.0 { 2.0 * sum / count } else { 1.0 })
 }

@@ -61,9 +61,15 @@ proptest! {
             _ if one_way && edge.node < from => 0,
             porosity => (porosity * 20.0) as u32,
         };
-        let flow = maximum_flow(&lattice, capacity, sources, sinks).unwrap();
-        check(&lattice, &flow, capacity, sources, sinks);
-        prop_assert_eq!(flow.value, maximum_flow_value(&lattice, capacity, sources, sinks));
+        let value = maximum_flow_value(&lattice, capacity, sources, sinks);
+        let edges = maximum_flow(&lattice, capacity, |_, _| 1.0, sources, sinks).unwrap();
+        check(&lattice, &edges, capacity, sources, sinks);
+        prop_assert_eq!(edges.value, value);
+        // The ways depend on costs, the value does not.
+        let cost = |from: usize, edge: &Edge| edge.distance / (0.01 + rock[from] + rock[edge.node]);
+        let cheap = maximum_flow(&lattice, capacity, cost, sources, sinks).unwrap();
+        check(&lattice, &cheap, capacity, sources, sinks);
+        prop_assert_eq!(cheap.value, value);
     }
 }
 
@@ -78,7 +84,7 @@ fn the_flow_through_a_block_is_that_of_its_narrowest_section() {
         let nodes = (0..lattice.node_count()).filter(|&node| lattice.coordinates(node)[0] == x);
         nodes.map(|node| Terminal { node, most: 1000 }).collect()
     };
-    let flow = maximum_flow(&lattice, capacity, &face(0), &face(69)).unwrap();
+    let flow = maximum_flow(&lattice, capacity, |_, _| 1.0, &face(0), &face(69)).unwrap();
     assert_eq!(flow.value, 2 * 40 * 30);
     check(&lattice, &flow, capacity, &face(0), &face(69));
 }
@@ -88,7 +94,7 @@ fn what_has_no_meaning_is_refused() {
     let lattice = Lattice::plane([3, 1], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
     let at = |node| Terminal { node, most: 1 };
     let solve = |capacity: u32, sources: &[Terminal], sinks: &[Terminal]| {
-        maximum_flow(&lattice, |_, _| capacity, sources, sinks).map(|flow| flow.value)
+        maximum_flow(&lattice, |_, _| capacity, |_, _| 1.0, sources, sinks).map(|flow| flow.value)
     };
     assert_eq!(solve(MOST_CAPACITY, &[at(0)], &[at(2)]), Ok(1));
     assert_eq!(solve(1, &[], &[at(2)]), Ok(0));
@@ -96,4 +102,21 @@ fn what_has_no_meaning_is_refused() {
     assert_eq!(solve(1, &[at(1)], &[at(1)]), Err(FlowError::Twice { node: 1 }));
     let refused = solve(MOST_CAPACITY + 1, &[at(0)], &[at(2)]);
     assert_eq!(refused, Err(FlowError::Capacity { from: 0, to: 1, capacity: MOST_CAPACITY + 1 }));
+    for cost in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let solved = maximum_flow(&lattice, |_, _| 1, |_, _| cost, &[at(0)], &[at(2)]);
+        assert!(matches!(solved, Err(FlowError::Cost { from: 0, to: 1, .. })));
+    }
+}
+
+/// Of two ways of the same number of edges flow takes the cheaper.
+#[test]
+fn flow_keeps_to_cheap_ways() {
+    let lattice = Lattice::plane([3, 3], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
+    let at = |node| Terminal { node, most: 1 };
+    let dear = 1;
+    let cost = |_: usize, edge: &Edge| if edge.node == dear { 9.0 } else { 1.0 };
+    let flow = maximum_flow(&lattice, |_, _| 1, cost, &[at(0)], &[at(4)]).unwrap();
+    let through =
+        |node| lattice.neighbours(node).any(|edge| flow.flow[lattice.slot(node, &edge)] != 0);
+    assert!(!through(dear) && through(3));
 }
