@@ -31,7 +31,7 @@ pub fn is_survey(path: &Path) -> bool {
     let heading = |text: String| text.lines().next().map(names).unwrap_or_default();
     let names = text(path).map(heading).unwrap_or_default();
     let has = |name: &&str| names.iter().any(|found| found == name);
-    ENDS.iter().all(|name| has(&name)) || ["from", "to"].iter().all(|name| has(&name))
+    ENDS.iter().all(has) || ["from", "to"].iter().all(has)
 }
 
 /// Reads a survey. `limits` bounds the number of legs and of stations.
