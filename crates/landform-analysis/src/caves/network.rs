@@ -167,16 +167,15 @@ impl CaveNetwork {
             let stations = branch.stations;
             let mut stays = vec![false; stations.len()];
             let last = stations.len() - 1;
-            let mut spans = vec![[0, last]];
-            // Ends that meet or are joined by another branch too need stations in between.
-            if stations.len() > 2 {
-                let thirds = [0, last.div_ceil(3), (2 * last).div_ceil(3).min(last - 1), last];
-                if stations[0] == stations[last] {
-                    spans = thirds.windows(2).map(|span| [span[0], span[1]]).collect();
-                } else if self.is_parallel(&stations) {
-                    spans = vec![[0, last / 2], [last / 2, last]];
+            // Loops, and branches that may share both ends, need stations in between.
+            let cuts = match stations.len() {
+                3.. if stations[0] == stations[last] => {
+                    vec![0, last.div_ceil(3), (2 * last).div_ceil(3), last]
                 }
-            }
+                3.. if self.joins_junctions(&stations) => vec![0, last / 2, last],
+                _ => vec![0, last],
+            };
+            let spans = cuts.windows(2).map(|cut| [cut[0], cut[1]]);
             for [from, to] in spans {
                 (stays[from], stays[to]) = (true, true);
                 self.keep_far(&stations, [from, to], tolerance_m, &mut stays);
@@ -188,8 +187,8 @@ impl CaveNetwork {
         self.with_legs(&kept)
     }
 
-    /// Whether a straight leg between the ends of a branch may hide it.
-    fn is_parallel(&self, stations: &[usize]) -> bool {
+    /// Whether a branch runs from junction to junction, so that another one may do so too.
+    fn joins_junctions(&self, stations: &[usize]) -> bool {
         let ends = [stations[0], stations[stations.len() - 1]];
         ends.iter().all(|&end| self.neighbours[end].len() > 2)
     }
@@ -204,8 +203,7 @@ impl CaveNetwork {
             };
             let farthest = (from + 1..to).map(|index| (off(index), index));
             let farthest = farthest.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-            if let Some((distance, index)) = farthest.filter(|found| found.0 > tolerance_m) {
-                let _ = distance;
+            if let Some((_, index)) = farthest.filter(|(distance, _)| *distance > tolerance_m) {
                 stays[index] = true;
                 open.extend([[from, index], [index, to]]);
             }
@@ -323,6 +321,17 @@ mod tests {
         let network = ladder().resampled(1e9);
         assert_eq!((network.component_count(), network.cyclomatic_number()), (2, 2));
         assert!(network.stations().len() <= 7 && network.legs().len() <= 7);
+        // Rings of every size stay rings.
+        for count in 3..12 {
+            let corner = |at: usize| {
+                let angle = at as f64 * std::f64::consts::TAU / count as f64;
+                [angle.cos(), angle.sin(), 0.0]
+            };
+            let legs: Vec<[usize; 2]> = (0..count).map(|at| [at, (at + 1) % count]).collect();
+            let ring = CaveNetwork::new((0..count).map(corner).collect(), &legs).unwrap();
+            let few = ring.resampled(1e9);
+            assert_eq!((few.cyclomatic_number(), few.legs().len()), (1, 3), "{count}");
+        }
         let same = ladder().resampled(0.1);
         assert!((same.length_m() - 16.0).abs() < 1e-12);
         // The tail is straight: one leg is enough.
