@@ -114,6 +114,8 @@ mod tests {
         let middle = ValleySpacing { from: 0.45, to: 0.55, ..Default::default() };
         assert_eq!(middle.spacing(&lattice, &heights), None);
         let east = ValleySpacing { feet: vec![Side::East], ..Default::default() };
-        assert_eq!(east.spacing(&lattice, &heights), None);
+        // Lines along the crests, which run from north to south, dip once: into the level middle.
+        let across = east.spacing(&lattice, &heights).unwrap();
+        assert!(across.spacing_m >= 410.0, "{across:?}");
     }
 }
