@@ -147,10 +147,8 @@ impl Sink for FigureSink {
         to.value("seen", &seen);
         for (panel, states) in self.seen.iter().enumerate() {
             for (state, subject) in states.iter().enumerate() {
-                let Some(subject) = subject else { continue };
-                to.array(&array_name(panel, state), &subject.values);
-                if let Some(depths) = &subject.water {
-                    to.array(&water_name(panel, state), depths);
+                if let Some(subject) = subject {
+                    subject.save(&array_name(panel, state), to);
                 }
             }
         }
@@ -164,20 +162,13 @@ impl Sink for FigureSink {
         _: &Path,
     ) -> Result<(), Damage> {
         let seen: Vec<(usize, usize)> = from.value("seen")?;
-        let nodes = snapshot.lattice().node_count();
-        let array = |name: String| from.array_of(&name, nodes).map(<[f64]>::to_vec);
         for (index, state) in seen {
             let places = self.seen.get_mut(index).and_then(|states| states.get_mut(state));
             let (Some(place), Some(panel)) = (places, self.settings.panels.get(index)) else {
                 continue;
             };
-            let depths = panel.look.water().map(|_| array(water_name(index, state)));
-            *place = Some(Subject {
-                values: array(array_name(index, state))?,
-                water: depths.transpose()?,
-                unit: unit(snapshot, &panel.field),
-                outside: snapshot.domain().outside.clone(),
-            });
+            let name = array_name(index, state);
+            *place = Some(Subject::restore(&name, from, snapshot, &panel.field, &panel.look)?);
         }
         Ok(())
     }
@@ -186,16 +177,6 @@ impl Sink for FigureSink {
 /// Name of the values of a panel in checkpoints.
 fn array_name(panel: usize, state: usize) -> String {
     format!("{panel}-{state}")
-}
-
-/// Name of the depths of water of a panel in checkpoints.
-fn water_name(panel: usize, state: usize) -> String {
-    format!("{panel}-{state}-water")
-}
-
-/// Unit of a field, nothing for one that is not there.
-fn unit(snapshot: &Snapshot<'_>, field: &str) -> String {
-    snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into())
 }
 
 impl FigureSink {

@@ -124,10 +124,7 @@ impl Sink for PanelSink {
         to.value("names", &names);
         for (index, (_, looks)) in self.states.iter().enumerate() {
             for (look, subject) in looks.iter().enumerate() {
-                to.array(&array_name(index, look), &subject.values);
-                if let Some(depths) = &subject.water {
-                    to.array(&water_name(index, look), depths);
-                }
+                subject.save(&array_name(index, look), to);
             }
         }
         Ok(())
@@ -155,11 +152,6 @@ fn array_name(state: usize, look: usize) -> String {
     format!("{state}-{look}")
 }
 
-/// Name of the depths of water of a state and a look in checkpoints.
-fn water_name(state: usize, look: usize) -> String {
-    format!("{state}-{look}-water")
-}
-
 impl PanelSink {
     /// What a look draws of a state, from a checkpoint.
     fn stored(
@@ -168,16 +160,9 @@ impl PanelSink {
         snapshot: &Snapshot<'_>,
         [state, look]: [usize; 2],
     ) -> Result<Subject, Damage> {
-        let nodes = snapshot.lattice().node_count();
-        let array = |name: String| from.array_of(&name, nodes).map(<[f64]>::to_vec);
-        let water = self.settings.looks[look].water();
         let field = self.settings.field_of(look);
-        Ok(Subject {
-            values: array(array_name(state, look))?,
-            water: water.map(|_| array(water_name(state, look))).transpose()?,
-            unit: snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into()),
-            outside: snapshot.domain().outside.clone(),
-        })
+        let name = array_name(state, look);
+        Subject::restore(&name, from, snapshot, field, &self.settings.looks[look])
     }
 
     fn draw(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {

@@ -1,5 +1,6 @@
 //! What pictures show: a field, and the water over it.
 
+use landform_sim::checkpoint::{Damage, Loader, Saver};
 use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -65,4 +66,38 @@ impl Subject {
         let outside = snapshot.domain().outside.clone();
         Ok(Self { values, water, unit: entry.unit.to_owned(), outside })
     }
+
+    /// Keeps what is drawn under a name in a checkpoint.
+    pub fn save<'a>(&'a self, name: &str, to: &mut Saver<'_, 'a>) {
+        to.array(name, &self.values);
+        if let Some(depths) = &self.water {
+            to.array(&water_name(name), depths);
+        }
+    }
+
+    /// What a look of a field drew, from a checkpoint.
+    ///
+    /// # Errors
+    /// [`Damage`] where it is not there whole.
+    pub fn restore(
+        name: &str,
+        from: &Loader<'_>,
+        snapshot: &Snapshot<'_>,
+        field: &str,
+        look: &Look,
+    ) -> Result<Self, Damage> {
+        let nodes = snapshot.lattice().node_count();
+        let array = |name: &str| from.array_of(name, nodes).map(<[f64]>::to_vec);
+        Ok(Self {
+            values: array(name)?,
+            water: look.water().map(|_| array(&water_name(name))).transpose()?,
+            unit: snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into()),
+            outside: snapshot.domain().outside.clone(),
+        })
+    }
+}
+
+/// Name of the depths of water beside values in checkpoints.
+fn water_name(name: &str) -> String {
+    format!("{name}-water")
 }
