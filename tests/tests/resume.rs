@@ -73,6 +73,36 @@ const AGENTS: &str = r#"(
     ],
 )"#;
 
+/// A cave, whose history and marks outlast an interruption.
+const CAVE: &str = r#"(
+    title: "Cave to interrupt",
+    domain: Volume(size: (40, 30, 14)),
+    initial: [(field: "porosity", from: Uniform(value: 0.2))],
+    stages: [
+        (name: "fine", processes: [Protochannels(sources: [(center: (0.1, 0.2, 1.0))], protosinks: 12)],
+         stop: Iterations(1)),
+        (name: "grown", processes: [CaveGrowth(
+            sources: [(center: (0.1, 0.2, 1.0)), (center: (0.5, 0.8, 1.0))],
+            sinks: [(center: (1.0, 0.5, 0.1))],
+         )], stop: Iterations(90)),
+        (name: "smooth", processes: [CaveGrowth(
+            sources: [(center: (0.1, 0.2, 1.0))], sinks: [(center: (1.0, 0.5, 0.1))],
+         )], stop: Iterations(10)),
+    ],
+    metrics: [CaveCourses()],
+    outputs: [
+        CaveEventTable(),
+        Figure(file: "figure.png", panels: [
+            (at: "fine", field: "protochannels", look: Passages(
+                at_least: 1.0, tube_radius_m: 0.3, colour_by: "pressure_zone", size: (200, 150),
+            )),
+            (at: "grown", after: 30, field: "porosity", look: CaveMap(at_least: 0.35, width: 200)),
+            (at: "grown", field: "pressure", look: Cloud(size: (200, 150))),
+        ]),
+        Animation(file: "growth.gif", field: "porosity", look: Passages(at_least: 0.35, size: (120, 90)), every: 10),
+    ],
+)"#;
+
 /// A scenario in a folder of its own, with what an unbroken run of it left.
 struct Case {
     scratch: Scratch,
@@ -166,6 +196,11 @@ fn piles_with_state_of_their_own_survive_kills() {
 #[test]
 fn agents_survive_kills() {
     survive(AGENTS, "0.02s");
+}
+
+#[test]
+fn caves_survive_kills() {
+    survive(CAVE, "3it");
 }
 
 #[test]

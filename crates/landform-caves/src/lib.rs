@@ -24,8 +24,8 @@ pub mod water;
 pub use error::CaveError;
 pub use place::{CaveSink, CaveSource, box_nodes, displacement, height, separation};
 pub use plugin::{
-    CaveCourses, CaveGrowth, CaveHistory, Passages, PoreFlow, PoreWater, Porosity, Pressure,
-    PressureZone, PressureZones, ProtochannelCount, ProtochannelSystems, Protochannels,
+    CaveCourses, CaveGrowth, CaveHistory, CavePlaces, Passages, PoreFlow, PoreWater, Porosity,
+    Pressure, PressureZone, PressureZones, ProtochannelCount, ProtochannelSystems, Protochannels,
     WaterMotion,
 };
 

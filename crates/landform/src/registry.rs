@@ -46,6 +46,7 @@ pub fn registry() -> Registry {
         .output::<outputs::RiverLines>()
         .output::<outputs::LakeOutlines>()
         .output::<outputs::CaptureTable>()
+        .output::<outputs::CaveEventTable>()
         .output::<outputs::IslandTable>()
         .output::<outputs::Mesh>()
         .output::<outputs::VoxelMesh>()

@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::{PoreFlow, PoreWater, Porosity, Pressure};
-use super::{openings, refusal};
+use super::{CavePlaces, openings, refusal};
 use crate::courses::CourseScale;
 use crate::erosion::Dissolution;
 use crate::growth::{ChannelGrowth, GrowthLaw, Motion};
@@ -173,6 +173,7 @@ impl Process for CaveGrowth {
             .writes::<PoreFlow>()
             .writes::<Pressure>()
             .rebuilds::<CaveWorks>()
+            .rebuilds::<CavePlaces>()
             .keeps::<CaveHistory>()
             .conserves(voxel_volume::<PoreWater>("pore water"))
             .conserves(voxel_volume::<Porosity>("voids"))
@@ -242,6 +243,7 @@ fn lay_out(
             pressure.values_mut().copy_from_slice(&first);
             commands.insert_resource(CaveWorks { growth, scale: settings.scale(&space) });
             commands.insert_resource(CaveHistory::default());
+            commands.insert_resource(CavePlaces::of(&space, &settings.sources, &settings.sinks));
         }
         Err(message) => fault.raise(message),
     }

@@ -4,12 +4,14 @@ mod fields;
 mod growth;
 mod metrics;
 mod network_metrics;
+mod places;
 mod protochannels;
 
 pub use fields::{PoreFlow, PoreWater, Porosity, Pressure, PressureZone, ProtochannelCount};
 pub use growth::{CaveGrowth, CaveHistory, WaterMotion};
 pub use metrics::{CaveCourses, Passages};
 pub use network_metrics::{PressureZones, ProtochannelSystems};
+pub use places::CavePlaces;
 pub use protochannels::Protochannels;
 
 use landform_graph::Lattice;

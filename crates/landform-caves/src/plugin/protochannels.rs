@@ -2,19 +2,20 @@
 
 use bevy_app::{App, Plugin};
 use bevy_ecs::change_detection::{Res, ResMut};
+use bevy_ecs::system::Commands;
 use landform_graph::Lattice;
 use landform_sim::clock::Clock;
 use landform_sim::fault::Fault;
 use landform_sim::field::FieldMut;
 use landform_sim::nodes::Space;
 use landform_sim::parameters::Problem;
-use landform_sim::process::{Declaration, Iterate, Process, ProcessApp, Settings};
+use landform_sim::process::{Begin, Declaration, Iterate, Process, ProcessApp, Settings};
 use landform_sim::random::RandomStream;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fields::{Porosity, PressureZone, ProtochannelCount};
-use super::openings;
+use super::{CavePlaces, openings};
 use crate::error::check_values;
 use crate::growth::Openings;
 use crate::stage_one::{
@@ -78,6 +79,7 @@ impl Process for Protochannels {
         uses.writes::<Porosity>()
             .writes::<PressureZone>()
             .writes::<ProtochannelCount>()
+            .rebuilds::<CavePlaces>()
             .scratch(26 * 4 + 64);
     }
 
@@ -92,8 +94,17 @@ impl Process for Protochannels {
 
 impl Plugin for Protochannels {
     fn build(&self, app: &mut App) {
-        app.insert_settings(self).add_systems(Iterate, lay_channels);
+        app.insert_settings(self)
+            .add_systems(Begin, mark_places)
+            .add_systems(Iterate, lay_channels);
     }
+}
+
+fn mark_places(
+    mut commands: Commands,
+    (settings, space): (Res<Settings<Protochannels>>, Res<Space>),
+) {
+    commands.insert_resource(CavePlaces::of(&space, &settings.sources, &[]));
 }
 
 fn lay_channels(

@@ -101,10 +101,9 @@ impl<'a> Scene<'a> {
         let towards = (self.camera.position - point).normalize_or_zero();
         let is_inside = normal.dot(towards) < 0.0;
         let normal = if is_inside { -normal } else { normal };
-        let [low, high] = [0, 1].map(|end| self.options.block[end][2]);
         let material = match is_inside {
             true => INSIDE,
-            false => self.options.colours.colour((point.z - low) / (high - low)),
+            false => self.material(triangle, weights, point.z),
         };
         let light = 0.62 * normal.dot(self.lamp).max(0.0) + 0.30 + 0.16 * normal.z;
         let light = (light * self.openness(column, row, sample.depth)) as f32;
@@ -112,6 +111,20 @@ impl<'a> Scene<'a> {
         let [near, far] = self.depths;
         let share = ((f64::from(sample.depth) - near) / (far - near)).clamp(0.0, 1.0);
         mix(lit, backdrop, (share * self.options.depth_cue) as f32)
+    }
+
+    /// Colour of a point of a triangle: that of its height, or of the paint of its vertices.
+    fn material(&self, triangle: [usize; 3], [second, third]: [f64; 2], height_m: f64) -> [u8; 3] {
+        let paint = triangle.map(|vertex| self.body.paint.get(vertex).copied().flatten());
+        let [Some(a), Some(b), Some(c)] = paint else {
+            let [low, high] = [0, 1].map(|end| self.options.block[end][2]);
+            return self.options.colours.colour((height_m - low) / (high - low));
+        };
+        let first = 1.0 - second - third;
+        std::array::from_fn(|channel| {
+            let of = |colour: [u8; 3], share: f64| f64::from(colour[channel]) * share;
+            (of(a, first) + of(b, second) + of(c, third)).round() as u8
+        })
     }
 
     /// How much of its surroundings a sample sees: 1 all, down to about a half in narrow corners.

@@ -6,9 +6,14 @@
 //!    sky, are darker in corners that see little of their surroundings, and paler the farther away
 //!    they are.
 //! 4. The edges of the block are drawn where the body does not hide them.
+//!
+//! [`Parts`] puts a body together from surfaces, tubes and arrows.
 
 mod draw;
+mod parts;
 mod samples;
+
+pub use parts::Parts;
 
 use glam::DVec3;
 
@@ -22,6 +27,9 @@ pub struct Body<'a> {
     pub positions: &'a [[f64; 3]],
     /// Three vertices each, counter-clockwise seen from outside.
     pub triangles: &'a [[u32; 3]],
+    /// Colours of the vertices, sRGB; those without one, and all when it is empty, take the colour of
+    /// their height.
+    pub paint: &'a [Option<[u8; 3]>],
 }
 
 /// A plane beyond which nothing is drawn.
@@ -46,13 +54,17 @@ pub struct BodyOptions {
     pub pitch_deg: f64,
     /// Horizontal field of view in degrees.
     pub field_of_view_deg: f64,
-    /// 1 fits the whole block into the picture; 2 halves the distance to its middle.
+    /// 1 fits the whole frame into the picture; 2 halves the distance to where the camera looks.
     pub zoom: f64,
+    /// Where the camera looks, in metres; the middle of the block when missing.
+    pub focus: Option<[f64; 3]>,
+    /// What the camera frames, if not the block: its lowest and highest corner.
+    pub frame: Option<[[f64; 3]; 2]>,
     /// Colours by height, from the foot of the block to its top.
     pub colours: ColourMap,
     /// What is left out, if anything.
     pub cut: Option<Cut>,
-    /// Lowest and highest corner of the block whose edges are drawn and that the camera frames.
+    /// Lowest and highest corner of the block whose edges are drawn.
     pub block: [[f64; 3]; 2],
     /// How much of its colour what is farthest away loses to the backdrop, 0 to 1.
     pub depth_cue: f64,
@@ -68,6 +80,8 @@ impl BodyOptions {
             pitch_deg: 30.0,
             field_of_view_deg: 28.0,
             zoom: 1.0,
+            focus: None,
+            frame: None,
             colours,
             cut: None,
             block,
@@ -90,10 +104,16 @@ impl BodyOptions {
             check("block", side, [1e-9, 1e12], "a block of more than no size")?;
         }
         let whole = body.positions.iter().flatten().chain(low.iter());
+        let whole =
+            whole.chain(self.frame.iter().flatten().flatten()).chain(self.focus.iter().flatten());
         for &coordinate in whole {
             check("a position", coordinate, [-1e12, 1e12], "a number of at most 1e12")?;
         }
         let count = body.positions.len();
+        if !body.paint.is_empty() {
+            let painted = body.paint.len() as f64;
+            check("colours", painted, [count as f64; 2], "a colour for each vertex, or none")?;
+        }
         let outside = body.triangles.iter().flatten().find(|&&vertex| vertex as usize >= count);
         match outside {
             Some(&vertex) => {
@@ -103,15 +123,16 @@ impl BodyOptions {
         }
     }
 
-    /// The camera that frames the block.
+    /// The camera that frames the block, or what is framed instead.
     fn camera(&self) -> Camera {
-        let corners: Vec<DVec3> = corners(self.block).collect();
+        let middle = corners(self.block).sum::<DVec3>() / 8.0;
+        let corners: Vec<DVec3> = corners(self.frame.unwrap_or(self.block)).collect();
         let size = self.size.map(|side| side * self.supersampling);
         let view = self.field_of_view_deg;
         let camera = Camera::new(DVec3::ZERO, self.bearing_deg, self.pitch_deg, view, size);
         let mut camera = camera.framing(&corners, 0.03);
-        let middle = corners.iter().sum::<DVec3>() / 8.0;
-        camera.position = middle + (camera.position - middle) / self.zoom;
+        let focus = self.focus.map_or(middle, DVec3::from_array);
+        camera.position = focus + (camera.position - middle) / self.zoom;
         camera
     }
 }
@@ -158,8 +179,9 @@ mod tests {
     #[test]
     fn a_box_hides_what_is_behind_it_and_a_cut_opens_it() {
         let (positions, triangles) = cube(2.0, 8.0);
-        let body = Body { positions: &positions, triangles: &triangles };
-        let empty = render(&Body { positions: &[], triangles: &[] }, &options()).unwrap();
+        let body = Body { positions: &positions, triangles: &triangles, paint: &[] };
+        let empty =
+            render(&Body { positions: &[], triangles: &[], paint: &[] }, &options()).unwrap();
         let whole = render(&body, &options()).unwrap();
         assert_ne!(whole.pixel(45, 30), empty.pixel(45, 30));
         assert_eq!(whole.pixel(1, 1), empty.pixel(1, 1));
@@ -173,9 +195,23 @@ mod tests {
     }
 
     #[test]
+    fn painted_vertices_keep_their_colour_and_the_focus_is_in_the_middle() {
+        let (positions, triangles) = cube(4.0, 6.0);
+        let red = vec![Some([255, 0, 0]); positions.len()];
+        let body = Body { positions: &positions, triangles: &triangles, paint: &red };
+        let clear = BodyOptions { depth_cue: 0.0, ..options() };
+        let middle = render(&body, &clear).unwrap().pixel(45, 30);
+        assert!(middle[0] > 100 && middle[0] / 3 > middle[1], "{middle:?}");
+        let aside = BodyOptions { focus: Some([1.0; 3]), zoom: 3.0, ..options() };
+        let empty = Body { positions: &[], triangles: &[], paint: &[] };
+        let drawn = render(&body, &aside).unwrap();
+        assert_eq!(drawn.pixel(45, 30), render(&empty, &aside).unwrap().pixel(45, 30));
+    }
+
+    #[test]
     fn the_same_bytes_on_any_number_of_threads() {
         let (positions, triangles) = cube(1.0, 9.0);
-        let body = Body { positions: &positions, triangles: &triangles };
+        let body = Body { positions: &positions, triangles: &triangles, paint: &[] };
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| render(&body, &options()).unwrap())
@@ -186,12 +222,14 @@ mod tests {
     #[test]
     fn bad_options_are_refused() {
         let (positions, triangles) = cube(1.0, 9.0);
-        let body = Body { positions: &positions, triangles: &triangles };
+        let body = Body { positions: &positions, triangles: &triangles, paint: &[] };
         let said = |options: BodyOptions| render(&body, &options).unwrap_err().to_string();
         assert!(said(BodyOptions { zoom: 0.0, ..options() }).contains("zoom"));
         assert!(said(BodyOptions { size: [0, 3], ..options() }).contains("nothing to show"));
         assert!(said(BodyOptions { block: [[0.0; 3]; 2], ..options() }).contains("block"));
-        let beyond = Body { positions: &positions[..2], triangles: &triangles };
+        let beyond = Body { positions: &positions[..2], triangles: &triangles, paint: &[] };
+        let half = Body { positions: &positions, triangles: &triangles, paint: &[None; 3] };
+        assert!(render(&half, &options()).unwrap_err().to_string().contains("colours"));
         assert!(render(&beyond, &options()).unwrap_err().to_string().contains("a vertex"));
     }
 }

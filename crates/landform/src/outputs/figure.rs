@@ -47,6 +47,9 @@ impl Default for Figure {
 pub struct FigurePanel {
     /// The state that it shows: the name of a stage, as it ended, or `initial`.
     pub at: String,
+    /// Iterations of that stage after which it is shown; its end when missing, or when it ends sooner.
+    #[schemars(range(min = 1))]
+    pub after: Option<u64>,
     /// For the look `Hypsometry`: a state whose curve is drawn too, thinner than that of `at`.
     pub since: Option<String>,
     /// Name of the field.
@@ -62,6 +65,7 @@ impl Default for FigurePanel {
     fn default() -> Self {
         Self {
             at: INITIAL.to_owned(),
+            after: None,
             since: None,
             field: "surface".to_owned(),
             look: Look::default(),
@@ -71,9 +75,11 @@ impl Default for FigurePanel {
 }
 
 impl FigurePanel {
-    /// The states that it shows: `at`, and `since` if there is one.
-    fn states(&self) -> impl Iterator<Item = &str> {
-        [Some(self.at.as_str()), self.since.as_deref()].into_iter().flatten()
+    /// The states that it shows, with the iterations of their stage: `at`, and `since` if there is
+    /// one.
+    fn states(&self) -> impl Iterator<Item = State<'_>> {
+        let since = self.since.as_deref().map(|name| (name, None));
+        [Some((self.at.as_str(), self.after)), since].into_iter().flatten()
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -81,9 +87,16 @@ impl FigurePanel {
             let message = "a look that shows one state is given two";
             return Err(Problem::new("since", message, "nothing, or the look Hypsometry"));
         }
+        if self.after.is_some() && self.at == INITIAL {
+            let message = "there are iterations after the state before the first one";
+            return Err(Problem::new("after", message, "nothing, or a stage as `at`"));
+        }
         self.look.validate(lattice)
     }
 }
+
+/// A state of the run: its name, and the iterations of its stage if it is not the end.
+type State<'a> = (&'a str, Option<u64>);
 
 impl Output for Figure {
     const NAME: &'static str = "Figure";
@@ -94,7 +107,7 @@ impl Output for Figure {
 
     fn stages(&self) -> Vec<String> {
         let states = self.panels.iter().flat_map(FigurePanel::states);
-        states.filter(|&state| state != INITIAL).map(str::to_owned).collect()
+        states.filter(|(name, _)| *name != INITIAL).map(|(name, _)| name.to_owned()).collect()
     }
 
     fn file(&self) -> Option<&Path> {
@@ -132,11 +145,15 @@ impl Sink for FigureSink {
         folder: &Path,
     ) -> Result<Vec<OutputFile>, Problem> {
         match moment {
-            Moment::Start => self.look_at(INITIAL, snapshot).map(|()| Vec::new()),
-            Moment::StageEnd => self.look_at(snapshot.stage_name(), snapshot).map(|()| Vec::new()),
-            Moment::Iteration => Ok(Vec::new()),
-            Moment::End => self.draw(snapshot, folder),
+            Moment::Start => self.look_at((INITIAL, None), snapshot)?,
+            Moment::StageEnd => self.look_at((snapshot.stage_name(), None), snapshot)?,
+            Moment::Iteration => {
+                let done = snapshot.clock().iteration;
+                self.look_at((snapshot.stage_name(), Some(done)), snapshot)?;
+            }
+            Moment::End => return self.draw(snapshot, folder),
         }
+        Ok(Vec::new())
     }
 
     fn save<'a>(&'a mut self, to: &mut Saver<'_, 'a>) -> Result<(), Problem> {
@@ -180,11 +197,13 @@ fn array_name(panel: usize, state: usize) -> String {
 }
 
 impl FigureSink {
-    /// Keeps what the panels show of a state.
-    fn look_at(&mut self, state: &str, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
+    /// Keeps what the panels show of a state. At the end of a stage, panels that wait for a later
+    /// iteration of it get that.
+    fn look_at(&mut self, state: State<'_>, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
         for (panel, seen) in self.settings.panels.iter().zip(&mut self.seen) {
             for (wanted, seen) in panel.states().zip(seen) {
-                if wanted == state {
+                let ended_sooner = wanted.0 == state.0 && state.1.is_none() && seen.is_none();
+                if wanted == state || ended_sooner {
                     *seen = Some(Subject::of(snapshot, &panel.field, &panel.look)?);
                 }
             }
@@ -212,7 +231,9 @@ impl FigureSink {
     fn panel(&self, lattice: &Lattice, index: usize) -> Result<Panel, Problem> {
         let panel = &self.settings.panels[index];
         let [Some(now), before] = &self.seen[index] else {
-            let message = format!("the run did not come to `{}`", panel.at);
+            let after =
+                panel.after.map_or_else(String::new, |count| format!(" after {count} iterations"));
+            let message = format!("the run did not come to `{}`{after}", panel.at);
             return Err(Problem::new("panels", message, "a stage of the run, or `initial`"));
         };
         let (image, numbers) = match (&panel.look, &panel.since, before) {

@@ -4,6 +4,7 @@ mod agent_map;
 mod agent_table;
 mod animation;
 mod capture_table;
+mod cave_event_table;
 mod centreline;
 mod field_file;
 mod field_series;
@@ -24,6 +25,7 @@ pub use agent_map::{AgentMap, DrawnGroup, LowNodes};
 pub use agent_table::AgentTable;
 pub use animation::Animation;
 pub use capture_table::CaptureTable;
+pub use cave_event_table::CaveEventTable;
 pub use centreline::Centreline;
 pub use field_file::FieldFile;
 pub use field_series::FieldSeries;
@@ -32,7 +34,10 @@ pub use island_table::IslandTable;
 pub use lake_outlines::LakeOutlines;
 pub use landform_sim::output::When;
 pub use level_lines::LevelLines;
-pub use look::{Density, DensityAxes, Flat, Look, Perspective, Relief, Section, WaterDepths};
+pub use look::{
+    CaveMap, CaveMapView, Cloud, CloudOpacity, Density, DensityAxes, Flat, Look, Perspective,
+    Relief, Section, WaterDepths,
+};
 pub use mesh::Mesh;
 pub use panels::Panels;
 pub use picture::Picture;

@@ -38,7 +38,7 @@ pub(super) fn view(arguments: &ViewArguments) -> Outcome {
     let outside = Outside::new(&lattice, &missing);
     let mut values = raster.values.clone();
     outside.extend(&mut values);
-    let subject = Subject { values, water, unit: unit.to_owned(), outside };
+    let subject = Subject { values, water, unit: unit.to_owned(), outside, ..Subject::default() };
     let image = look(arguments)
         .draw(&lattice, &subject)
         .map_err(|error| Failure::Refused(error.to_string()))?;

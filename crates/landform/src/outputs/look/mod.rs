@@ -1,9 +1,13 @@
 //! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice or
-//! a body of a volume, as a spectrum, as a hypsometric curve, as a section.
+//! a body or a cloud of a volume, as the map of a cave, as a spectrum, as a hypsometric curve, as a section.
 
+mod cave_map;
+mod cloud;
 mod flat;
 mod gaps;
 mod hypsometry;
+mod marks;
+mod passage_body;
 mod passages;
 mod perspective;
 mod profile;
@@ -13,6 +17,8 @@ mod slice;
 mod subject;
 mod text;
 
+pub use cave_map::{CaveMap, CaveMapView};
+pub use cloud::{Cloud, CloudOpacity};
 pub use flat::{Density, DensityAxes, Flat};
 pub use hypsometry::Curve;
 pub use passages::Passages;
@@ -46,6 +52,10 @@ pub enum Look {
     Slice(Slice),
     /// The voxels of at least a value as a body in perspective.
     Passages(Passages),
+    /// The voxels of at least a value as a map of a cave: plan and elevations.
+    CaveMap(CaveMap),
+    /// The values of a volume as a translucent cloud.
+    Cloud(Cloud),
     /// The spectral density of the field.
     Spectrum(Density),
     /// The hypsometric curve of the field.
@@ -64,8 +74,10 @@ impl Look {
     /// Draws what it shows of a field of `lattice`.
     pub(crate) fn draw(&self, lattice: &Lattice, subject: &Subject) -> Result<Image, ViewError> {
         match self {
-            Self::Slice(slice) => return slice.draw(lattice, &subject.values, &subject.unit),
-            Self::Passages(passages) => return passages.draw(lattice, &subject.values),
+            Self::Slice(slice) => return slice.draw(lattice, subject),
+            Self::Passages(passages) => return passages.draw(lattice, subject),
+            Self::CaveMap(map) => return map.draw(lattice, subject),
+            Self::Cloud(cloud) => return cloud.draw(lattice, subject),
             _ => {}
         }
         let size = [lattice.width(), lattice.height()];
@@ -101,6 +113,8 @@ impl Look {
             // Of a plane there is but one.
             Self::Slice(slice) => slice.flat().draw(values, width, height, &subject.unit),
             Self::Passages(passages) => passages.trial(),
+            Self::CaveMap(map) => map.trial(),
+            Self::Cloud(cloud) => cloud.trial(),
             Self::Spectrum(density) => density.draw(values, [width, height]),
             Self::Hypsometry(curve) => curve.figure(values).image(),
             Self::Section(section) => section.figure([width, height], spacing_m, subject)?.image(),
@@ -124,6 +138,8 @@ impl Look {
             | Self::Flat(_)
             | Self::Slice(_)
             | Self::Passages(_)
+            | Self::CaveMap(_)
+            | Self::Cloud(_)
             | Self::Spectrum(_) => None,
         }
     }
@@ -142,6 +158,8 @@ impl Look {
             Self::Flat(_)
             | Self::Slice(_)
             | Self::Passages(_)
+            | Self::CaveMap(_)
+            | Self::Cloud(_)
             | Self::Spectrum(_)
             | Self::Hypsometry(_) => None,
         }
@@ -150,7 +168,27 @@ impl Look {
     /// Names of the fields that it draws when it shows `field`.
     pub(crate) fn fields(&self, field: &str) -> Vec<String> {
         let water = self.water().map(|water| water.field.clone());
-        [field.to_owned()].into_iter().chain(water).collect()
+        let paint = self.paint().map(str::to_owned);
+        [field.to_owned()].into_iter().chain(water).chain(paint).collect()
+    }
+
+    /// The field by which it colours passages, if it is another one.
+    pub(crate) fn paint(&self) -> Option<&str> {
+        match self {
+            Self::Passages(passages) => passages.colour_by.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// Whether it marks where water comes in and goes out of caves.
+    pub(crate) fn has_marks(&self) -> bool {
+        match self {
+            Self::Passages(passages) => passages.marks,
+            Self::Slice(slice) => slice.marks,
+            Self::CaveMap(map) => map.marks,
+            Self::Cloud(cloud) => cloud.marks,
+            _ => false,
+        }
     }
 
     /// What the picture says in numbers, for looks that measure: RMS and R2 of a spectrum, as
@@ -167,7 +205,9 @@ impl Look {
             | Self::Perspective(_)
             | Self::Flat(_)
             | Self::Slice(_)
-            | Self::Passages(_) => None,
+            | Self::Passages(_)
+            | Self::CaveMap(_)
+            | Self::Cloud(_) => None,
         }
     }
 
@@ -178,6 +218,8 @@ impl Look {
             Self::Relief(relief) => nodes.map(|nodes| nodes * relief.pixels_per_node),
             Self::Perspective(view) => <[usize; 2]>::from(view.size).map(|size| size as f64),
             Self::Passages(passages) => <[usize; 2]>::from(passages.size).map(|size| size as f64),
+            Self::Cloud(cloud) => <[usize; 2]>::from(cloud.size).map(|size| size as f64),
+            Self::CaveMap(map) => map.samples(lattice),
             Self::Slice(slice) => {
                 slice.size(lattice).map(|voxels| (voxels * slice.pixels_per_node) as f64)
             }
@@ -195,12 +237,14 @@ impl Look {
             return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
         }
         let layers = lattice.depth();
-        if layers > 1 && !matches!(self, Self::Slice(_) | Self::Passages(_)) {
+        let of_volumes =
+            matches!(self, Self::Slice(_) | Self::Passages(_) | Self::CaveMap(_) | Self::Cloud(_));
+        if layers > 1 && !of_volumes {
             let message = format!("the domain has {layers} layers, and the look shows a map");
             return Err(Problem::new(
                 "look",
                 message,
-                "the look Slice, which shows one of them, or Passages",
+                "the look Slice, which shows one of them, Passages, CaveMap or Cloud",
             ));
         }
         if let Self::Section(section) = self {
@@ -233,8 +277,9 @@ impl Look {
             Self::Perspective(view) => view.range_m,
             Self::Flat(flat) => flat.range,
             Self::Slice(slice) => slice.range,
+            Self::Cloud(cloud) => cloud.range,
             Self::Section(section) => section.range_m,
-            Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
+            Self::Passages(_) | Self::CaveMap(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
         }
     }
 
@@ -245,8 +290,9 @@ impl Look {
             Self::Perspective(view) => view.range_m = Some(range),
             Self::Flat(flat) => flat.range = Some(range),
             Self::Slice(slice) => slice.range = Some(range),
+            Self::Cloud(cloud) => cloud.range = Some(range),
             Self::Section(section) => section.range_m = Some(range),
-            Self::Passages(_) | Self::Spectrum(_) | Self::Hypsometry(_) => {}
+            Self::Passages(_) | Self::CaveMap(_) | Self::Spectrum(_) | Self::Hypsometry(_) => {}
         }
         self
     }

@@ -1,13 +1,13 @@
 //! Voxels of at least a value as a body in perspective.
 
-use landform_analysis::voxels::{Surface, VoxelSet, smooth_surface};
 use landform_graph::Lattice;
-use landform_view::body::{Body, BodyOptions, Cut, render};
+use landform_view::body::{BodyOptions, Cut, Parts, render};
 use landform_view::{ColourMap, Image, ViewError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::slice::Across;
+use super::{Subject, passage_body};
 
 /// A plane that opens a body: what lies above it, north of it or east of it is left out.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
@@ -28,8 +28,8 @@ impl Default for Opening {
     }
 }
 
-/// The voxels of at least a value as a body in perspective, coloured by height: the passages of a
-/// cave.
+/// The voxels of at least a value as a body in perspective, coloured by height or by another field:
+/// the passages of a cave. Arrows show where water comes in and goes out.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Passages {
@@ -38,8 +38,16 @@ pub struct Passages {
     /// Steps of 4-8 subdivision that smooth the surface.
     #[schemars(range(max = 5), extend("x-source" = "thesis A.3"))]
     pub smoothing: usize,
+    /// Radius of tubes through the middles of the voxels, drawn instead of their surface: for channels
+    /// a voxel wide, which are whole even where voxels touch at a corner.
+    #[schemars(range(min = 1e-6, max = 1e6), extend("x-unit" = "m"))]
+    pub tube_radius_m: Option<f64>,
     /// Name of the colour map.
     pub colours: String,
+    /// Name of the field that colours the passages; their height when missing.
+    pub colour_by: Option<String>,
+    /// Values of that field for the first and the last colour; its range in the passages when missing.
+    pub range: Option<(f64, f64)>,
     /// Width and height of the picture.
     #[schemars(extend("x-unit" = "pixels"))]
     pub size: (usize, usize),
@@ -49,14 +57,19 @@ pub struct Passages {
     /// How far the camera looks down; 90 is a plan.
     #[schemars(range(min = -90.0, max = 90.0), extend("x-unit" = "degrees"))]
     pub pitch_deg: f64,
-    /// 1 fits the whole block into the picture; 2 halves the distance to its middle.
+    /// 1 fits the whole block into the picture; 2 halves the distance to where the camera looks.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub zoom: f64,
+    /// Where the camera looks, as shares of the way from west to east, from south to north and from
+    /// the foot of the block to its top; the middle of the block when missing.
+    pub focus: Option<(f64, f64, f64)>,
     /// A plane beyond which nothing is drawn.
     pub opening: Option<Opening>,
     /// How much of its colour what is farthest away loses.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub depth_cue: f64,
+    /// Whether arrows show sources and sinks of caves.
+    pub marks: bool,
 }
 
 impl Default for Passages {
@@ -64,48 +77,49 @@ impl Default for Passages {
         Self {
             at_least: 0.5,
             smoothing: 2,
+            tube_radius_m: None,
             colours: "batlow".to_owned(),
+            colour_by: None,
+            range: None,
             size: (960, 640),
             bearing_deg: 25.0,
             pitch_deg: 30.0,
             zoom: 1.0,
+            focus: None,
             opening: None,
             depth_cue: 0.35,
+            marks: true,
         }
     }
 }
 
 impl Passages {
-    pub(super) fn draw(&self, lattice: &Lattice, values: &[f64]) -> Result<Image, ViewError> {
-        let set = VoxelSet::at_least(lattice.size(), values, self.at_least);
-        let Surface { mut positions, triangles } = smooth_surface(&set, self.smoothing);
-        let spacing_m = lattice.spacing();
-        positions.iter_mut().flatten().for_each(|at| *at *= spacing_m);
-        let top = lattice.size().map(|nodes| nodes as f64 * spacing_m);
-        let options = BodyOptions {
+    pub(super) fn draw(&self, lattice: &Lattice, subject: &Subject) -> Result<Image, ViewError> {
+        let top = lattice.size().map(|nodes| nodes as f64 * lattice.spacing());
+        let colours = ColourMap::named(&self.colours)?;
+        let parts = passage_body::parts(self, lattice, subject, colours);
+        render(&parts.body(), &self.options(colours, top))
+    }
+
+    fn options(&self, colours: ColourMap, top: [f64; 3]) -> BodyOptions {
+        BodyOptions {
             size: self.size.into(),
             bearing_deg: self.bearing_deg,
             pitch_deg: self.pitch_deg,
             zoom: self.zoom,
+            focus: self.focus.map(|(x, y, z)| [x * top[0], y * top[1], z * top[2]]),
+            frame: self.marks.then(|| passage_body::frame(top)),
             cut: self.opening.map(|opening| opening.cut(top)),
             depth_cue: self.depth_cue,
-            ..BodyOptions::new(ColourMap::named(&self.colours)?, [[0.0; 3], top])
-        };
-        render(&Body { positions: &positions, triangles: &triangles }, &options)
+            ..BodyOptions::new(colours, [[0.0; 3], top])
+        }
     }
 
     /// A tiny picture with all the settings, for what only drawing finds wrong.
     pub(super) fn trial(&self) -> Result<Image, ViewError> {
         let small = Self { size: (4, 4), ..self.clone() };
-        let options = BodyOptions {
-            size: small.size.into(),
-            bearing_deg: small.bearing_deg,
-            pitch_deg: small.pitch_deg,
-            zoom: small.zoom,
-            depth_cue: small.depth_cue,
-            ..BodyOptions::new(ColourMap::named(&small.colours)?, [[0.0; 3], [1.0; 3]])
-        };
-        render(&Body { positions: &[], triangles: &[] }, &options)
+        let colours = ColourMap::named(&small.colours)?;
+        render(&Parts::default().body(), &small.options(colours, [1.0; 3]))
     }
 }
 

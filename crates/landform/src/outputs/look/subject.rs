@@ -1,5 +1,6 @@
 //! What pictures show: a field, and the water over it.
 
+use landform_caves::CavePlaces;
 use landform_sim::checkpoint::{Damage, Loader, Saver};
 use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
@@ -51,6 +52,10 @@ pub(crate) struct Subject {
     pub values: Vec<f64>,
     /// Depths of the water over them, for looks that draw it.
     pub water: Option<Vec<f64>>,
+    /// Values by which passages are coloured, for looks that colour them by another field.
+    pub paint: Option<Vec<f64>>,
+    /// Where water comes in and goes out of caves, for looks that mark it.
+    pub places: CavePlaces,
     /// Unit of the values.
     pub unit: String,
     /// The nodes that do not belong to the map.
@@ -63,8 +68,16 @@ impl Subject {
         let (values, entry) = field_file::values(snapshot, field)?;
         let depths = look.water().map(|water| field_file::values(snapshot, &water.field));
         let water = depths.transpose()?.map(|(depths, _)| depths);
-        let outside = snapshot.domain().outside.clone();
-        Ok(Self { values, water, unit: entry.unit.to_owned(), outside })
+        let paint = look.paint().map(|field| field_file::values(snapshot, field)).transpose()?;
+        let places = snapshot.world().get_resource::<CavePlaces>().filter(|_| look.has_marks());
+        Ok(Self {
+            values,
+            water,
+            paint: paint.map(|(values, _)| values),
+            places: places.cloned().unwrap_or_default(),
+            unit: entry.unit.to_owned(),
+            outside: snapshot.domain().outside.clone(),
+        })
     }
 
     /// Keeps what is drawn under a name in a checkpoint.
@@ -73,6 +86,10 @@ impl Subject {
         if let Some(depths) = &self.water {
             to.array(&water_name(name), depths);
         }
+        if let Some(values) = &self.paint {
+            to.array(&paint_name(name), values);
+        }
+        to.value(&places_name(name), &(&self.places.sources, &self.places.sinks));
     }
 
     /// What a look of a field drew, from a checkpoint.
@@ -88,9 +105,12 @@ impl Subject {
     ) -> Result<Self, Damage> {
         let nodes = snapshot.lattice().node_count();
         let array = |name: &str| from.array_of(name, nodes).map(<[f64]>::to_vec);
+        let (sources, sinks) = from.value(&places_name(name))?;
         Ok(Self {
             values: array(name)?,
             water: look.water().map(|_| array(&water_name(name))).transpose()?,
+            paint: look.paint().map(|_| array(&paint_name(name))).transpose()?,
+            places: CavePlaces { sources, sinks },
             unit: snapshot.entry(field).map_or_else(|_| String::new(), |entry| entry.unit.into()),
             outside: snapshot.domain().outside.clone(),
         })
@@ -100,4 +120,14 @@ impl Subject {
 /// Name of the depths of water beside values in checkpoints.
 fn water_name(name: &str) -> String {
     format!("{name}-water")
+}
+
+/// Name of the values that colour passages beside those that show them.
+fn paint_name(name: &str) -> String {
+    format!("{name}-paint")
+}
+
+/// Name of the sources and sinks of caves beside values.
+fn places_name(name: &str) -> String {
+    format!("{name}-places")
 }
