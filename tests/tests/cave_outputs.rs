@@ -72,7 +72,7 @@ fn events_are_a_table_and_as_many_as_the_metric_counts() {
     let scratch = run(CAVE);
     let table = fs::read_to_string(scratch.path("o/events.csv")).expect("a table");
     let mut lines = table.lines();
-    let head = "stage,iteration,event,source,other,x,y,z,phreatic_loops,length_m";
+    let head = "stage,iteration,event,source,other,x,y,z,rise_m,length_m";
     assert_eq!(lines.next(), Some(head));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let report = fs::read_to_string(scratch.path("o/report.json")).expect("a report");
@@ -84,7 +84,7 @@ fn events_are_a_table_and_as_many_as_the_metric_counts() {
         assert_eq!(report["metrics"][metric], count as f64, "{table}");
     }
     // All three drain in the end, and each of them once.
-    let drained = rows.iter().filter(|row| row[2] != "link");
+    let drained = rows.iter().filter(|row| ["breakthrough", "capture"].contains(&row[2]));
     let mut sources: Vec<&str> = drained.map(|row| row[3]).collect();
     sources.sort_unstable();
     assert_eq!(sources, ["1", "2", "3"], "{table}");
@@ -96,7 +96,9 @@ fn events_are_a_table_and_as_many_as_the_metric_counts() {
         before = iteration;
         let at: Vec<f64> = row[5..8].iter().map(|at| at.parse().expect("a place")).collect();
         assert!(at[0] <= 58.0 && at[1] <= 46.0 && at[2] <= 22.0, "{row:?}");
-        assert_eq!(row[4].is_empty(), row[2] == "breakthrough", "{row:?}");
+        assert_eq!(row[4].is_empty(), ["breakthrough", "phreatic_loop"].contains(&row[2]));
+        let rise_m: f64 = row[8].parse().expect("a rise");
+        assert!(rise_m >= if row[2] == "phreatic_loop" { 2.0 } else { 0.0 }, "{row:?}");
         let length_m: f64 = row[9].parse().expect("a length");
         assert_eq!(length_m > 0.0, row[2] != "link", "{row:?}");
     }
@@ -157,6 +159,7 @@ fn what_cannot_be_shown_is_refused() {
         ("after: 40,", "after: 0,", "after"),
         ("at: \"grown\", after: 40", "at: \"initial\", after: 40", "after"),
         ("events.csv", "events.json", ".csv"),
+        ("focus: (0.9,", "focus: (1e11,", "focus"),
         ("Cloud(", "Cloud(colours: \"blues\", ", "blues"),
     ] {
         scratch.write("cave.ron", CAVE.replacen(from, to, 1));

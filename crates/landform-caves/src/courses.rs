@@ -16,12 +16,27 @@ pub struct Course {
     pub joins: Option<(u32, usize)>,
     /// 0 for a course of its own, one more than that of the course it joins.
     pub order: u32,
-    /// Phreatic loops: how often the course goes up after it came down.
-    pub loops: u32,
-    /// All of its rises in metres.
-    pub climb_m: f64,
+    /// Phreatic loops: where the course goes up after it came down.
+    pub loops: Vec<PhreaticLoop>,
     /// Its length in metres.
     pub length_m: f64,
+}
+
+/// A rise of a course that came down before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhreaticLoop {
+    /// The lowest voxel, where it turns up.
+    pub foot: usize,
+    /// How far it rises, in metres.
+    pub rise_m: f64,
+}
+
+impl Course {
+    /// All of its rises in metres.
+    pub fn climb_m(&self) -> f64 {
+        // Not the -0 of an empty sum.
+        self.loops.iter().map(|up| up.rise_m).fold(0.0, |sum, rise_m| sum + rise_m)
+    }
 }
 
 /// What counts when courses are compared.
@@ -78,13 +93,11 @@ pub fn courses(
         }
         near.sort_unstable();
         near.dedup_by_key(|entry| entry.0);
-        let (loops, climb_m) = rises(lattice, &trail, scale.least_rise_m);
         courses.push(Course {
             source,
             joins: joined.map(|(node, other, _)| (courses[other].source, node)),
             order: joined.map_or(0, |(_, other, _)| courses[other].order + 1),
-            loops,
-            climb_m,
+            loops: rises(lattice, &trail, scale.least_rise_m),
             length_m: length(lattice, &trail),
             trail,
         });
@@ -96,27 +109,30 @@ fn length(lattice: &Lattice, trail: &[usize]) -> f64 {
     trail.windows(2).map(|step| separation(lattice, step[0], step[1])).sum()
 }
 
-/// Number of rises of at least `least_m` that a trail has after it fell, and their sum.
-fn rises(lattice: &Lattice, trail: &[usize], least_m: f64) -> (u32, f64) {
-    let (mut count, mut sum) = (0, 0.0);
+/// The rises of at least `least_m` that a trail has after it fell.
+fn rises(lattice: &Lattice, trail: &[usize], least_m: f64) -> Vec<PhreaticLoop> {
+    let mut rises: Vec<PhreaticLoop> = Vec::new();
     let mut rising = false;
-    let start = height(lattice, trail[0]);
-    let (mut low, mut top) = (start, start);
+    let mut foot = trail[0];
     for &node in trail {
         let here = height(lattice, node);
-        if rising {
-            top = top.max(here);
-            if top - here >= least_m {
-                (rising, sum, low) = (false, sum + top - low, here);
+        let up = here - height(lattice, foot);
+        match rises.last_mut().filter(|_| rising) {
+            Some(last) => {
+                last.rise_m = last.rise_m.max(up);
+                if last.rise_m - up >= least_m {
+                    (rising, foot) = (false, node);
+                }
             }
-        } else {
-            low = low.min(here);
-            if here - low >= least_m {
-                (rising, count, top) = (true, count + 1, here);
+            None if up >= least_m => {
+                rising = true;
+                rises.push(PhreaticLoop { foot, rise_m: up });
             }
+            None if up <= 0.0 => foot = node,
+            None => {}
         }
     }
-    (count, if rising { sum + top - low } else { sum })
+    rises
 }
 
 #[cfg(test)]
@@ -156,7 +172,7 @@ mod tests {
         // The last meets the others only at the sink.
         assert_eq!((courses[2].joins, courses[2].order), (None, 0));
         assert_eq!(courses[0].length_m, 15.0);
-        assert_eq!(courses[0].loops, 0);
+        assert_eq!(courses[0].loops, []);
     }
 
     #[test]
@@ -170,6 +186,7 @@ mod tests {
         let start = lattice.node([1, 0, 0]);
         let course = &courses(&lattice, &pressure, &[(0, start)], SCALE)[0];
         // Down 8, up 4, down 5; the last rise of 1 is too small.
-        assert_eq!((course.loops, course.climb_m), (1, 4.0));
+        let expected = PhreaticLoop { foot: lattice.node([3, 8, 0]), rise_m: 4.0 };
+        assert_eq!((course.loops.as_slice(), course.climb_m()), (&[expected][..], 4.0));
     }
 }

@@ -165,7 +165,7 @@ fn resistance_decides_how_channels_link() {
         );
         let own = courses.iter().filter(|course| course.joins.is_none()).count();
         let longest = courses.iter().map(|course| course.order + 1).max();
-        (own, longest, courses.iter().map(|course| course.loops).sum::<u32>())
+        (own, longest, courses.iter().map(|course| course.loops.len()).sum::<usize>())
     };
     let rates = |rock_per_m, channel_per_m| Rates { rock_per_m, channel_per_m };
     let (own_courses, longest, loops) = own(rates(0.05, 0.001));

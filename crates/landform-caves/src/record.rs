@@ -15,6 +15,8 @@ pub enum CaveEventKind {
     Breakthrough,
     /// Passages led it into the course of another source, whose tributary it became.
     Capture,
+    /// Its course goes up after it came down, when it comes to drain.
+    PhreaticLoop,
 }
 
 /// An event in the growth of a cave.
@@ -28,10 +30,11 @@ pub struct CaveEvent {
     pub source: u32,
     /// Number of the other source, of a link or a capture.
     pub other: Option<u32>,
-    /// Voxel where the course meets the other, or ends.
+    /// Voxel where the course meets the other, ends, or turns up; of a link one of the passages.
     pub node: u32,
-    /// Phreatic loops on the course from the source to the sink.
-    pub loops: u32,
+    /// How far the course from the source to the sink goes up, or how far the loop does, in metres; 0
+    /// for a link.
+    pub rise_m: f64,
     /// Length of that course in metres, 0 for a link.
     pub length_m: f64,
 }
@@ -88,7 +91,7 @@ impl CaveRecord {
                         source: pair.0,
                         other: Some(pair.1),
                         node: system as u32,
-                        loops: 0,
+                        rise_m: 0.0,
                         length_m: 0.0,
                     });
                 }
@@ -96,7 +99,8 @@ impl CaveRecord {
         }
     }
 
-    /// Adds the events of the sources that drain since there were `known`.
+    /// Adds the events of the sources that drain since there were `known`, with the loops of their
+    /// courses.
     fn tell_drained(
         &mut self,
         lattice: &Lattice,
@@ -118,9 +122,18 @@ impl CaveRecord {
                 source: course.source,
                 other: course.joins.map(|joins| joins.0),
                 node: course.joins.map_or(end, |joins| joins.1) as u32,
-                loops: course.loops,
+                rise_m: course.climb_m(),
                 length_m: course.length_m,
             });
+            self.events.extend(course.loops.iter().map(|up| CaveEvent {
+                iteration,
+                kind: CaveEventKind::PhreaticLoop,
+                source: course.source,
+                other: None,
+                node: up.foot as u32,
+                rise_m: up.rise_m,
+                length_m: course.length_m,
+            }));
         }
     }
 

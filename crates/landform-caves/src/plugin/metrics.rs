@@ -110,14 +110,17 @@ impl Metric for CaveCourses {
             courses.iter().filter(|course| course.joins.is_none()).filter(ends_at_sink).count();
         let tributaries = courses.iter().filter(|course| course.joins.is_some()).count();
         let longest = courses.iter().map(|course| course.order + 1).max().unwrap_or(0);
-        let loops = courses.iter().map(|course: &Course| course.loops).sum::<u32>();
+        let loops = courses.iter().map(|course: &Course| course.loops.len()).sum::<usize>();
         let values = [
             ("sources_drained", courses.len() as f64),
             ("tributaries", tributaries as f64),
             ("courses_own", own as f64),
             ("longest_sequence", f64::from(longest)),
-            ("phreatic_loops", f64::from(loops)),
-            ("climb_m", courses.iter().map(|course| course.climb_m).sum()),
+            ("phreatic_loops", loops as f64),
+            (
+                "climb_m",
+                courses.iter().map(Course::climb_m).fold(0.0, |sum, climb_m| sum + climb_m),
+            ),
             ("links", events(CaveEventKind::Link)),
             ("breakthroughs", events(CaveEventKind::Breakthrough)),
             ("captures", events(CaveEventKind::Capture)),

@@ -15,13 +15,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Every event in the growth of caves as comma-separated values: `link`s of two sources that do not
-/// drain yet, `breakthrough`s to a sink, and `capture`s of tributaries; with the stage and its
-/// iteration, the numbers of the sources (from 1), the place in metres from the lower south-western
-/// voxel, and of sources that came to drain the length of their course to the sink and its phreatic
-/// loops. The metric `CaveCourses` counts them.
+/// drain yet, `breakthrough`s to a sink, `capture`s of tributaries, and each `phreatic_loop` on the
+/// course of a source that comes to drain; with the stage and its iteration, the numbers of the
+/// sources (from 1), the place in metres from the lower south-western voxel, how far the course or the
+/// loop goes up, and the length of the course to the sink. The metric `CaveCourses` counts them.
 ///
-/// The place is where the course meets the one it joins, where it ends at a sink, or for a link a
-/// voxel of the passages that join both.
+/// The place is where the course meets the one it joins, where it ends at a sink, where it turns up,
+/// or for a link a voxel of the passages that join both.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CaveEventTable {
@@ -107,7 +107,7 @@ impl EventSink {
     fn write(&self, snapshot: &Snapshot<'_>, folder: &Path) -> Result<Vec<OutputFile>, Problem> {
         let path = below(folder, &self.settings.file)?;
         let written = write_atomically(&path, IfExists::Replace, |file| {
-            writeln!(file, "stage,iteration,event,source,other,x,y,z,phreatic_loops,length_m")?;
+            writeln!(file, "stage,iteration,event,source,other,x,y,z,rise_m,length_m")?;
             self.events.iter().try_for_each(|(stage, event)| {
                 let stage = quoted(stage);
                 writeln!(file, "{stage},{}", row(snapshot.lattice(), event))
@@ -124,12 +124,13 @@ fn row(lattice: &Lattice, event: &CaveEvent) -> String {
         CaveEventKind::Link => "link",
         CaveEventKind::Breakthrough => "breakthrough",
         CaveEventKind::Capture => "capture",
+        CaveEventKind::PhreaticLoop => "phreatic_loop",
     };
     let other = event.other.map_or_else(String::new, |other| (other + 1).to_string());
     let at = lattice.position(event.node as usize);
-    let CaveEvent { iteration, source, loops, length_m, .. } = event;
+    let CaveEvent { iteration, source, rise_m, length_m, .. } = event;
     format!(
-        "{iteration},{kind},{},{other},{:?},{:?},{:?},{loops},{length_m:?}",
+        "{iteration},{kind},{},{other},{:?},{:?},{:?},{rise_m:?},{length_m:?}",
         source + 1,
         at.x,
         at.y,

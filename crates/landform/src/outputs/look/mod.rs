@@ -247,8 +247,10 @@ impl Look {
                 "the look Slice, which shows one of them, Passages, CaveMap or Cloud",
             ));
         }
-        if let Self::Section(section) = self {
-            section.check()?;
+        match self {
+            Self::Section(section) => section.check()?,
+            Self::Passages(passages) => passages.check()?,
+            _ => {}
         }
         let heights = matches!(self, Self::Relief(_) | Self::Perspective(_) | Self::Section(_));
         if heights && lattice.width().min(lattice.height()) < 2 {

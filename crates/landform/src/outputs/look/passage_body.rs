@@ -138,3 +138,72 @@ impl<'a> Paint<'a> {
         Some(self.map.colour(share))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use landform_caves::CavePlaces;
+    use landform_graph::{Boundary, Connectivity};
+
+    /// Three voxels in a row that touch at corners only, and their numbers as a second field.
+    fn diagonal_channel() -> (Lattice, Subject) {
+        let open = [Boundary::Open; 3];
+        let lattice = Lattice::volume([5, 5, 5], 2.0, Connectivity::Voxel26, open).unwrap();
+        let mut subject = Subject { values: vec![0.0; 125], ..Subject::default() };
+        let mut numbers = vec![0.0; 125];
+        for step in 1..4 {
+            let node = lattice.node([step, step, step]);
+            subject.values[node] = 1.0;
+            numbers[node] = step as f64;
+        }
+        subject.paint = Some(numbers);
+        (lattice, subject)
+    }
+
+    #[test]
+    fn tubes_run_through_corners_and_take_the_colours_of_their_voxels() {
+        let (lattice, subject) = diagonal_channel();
+        let map = ColourMap::named("batlow").unwrap();
+        let look = Passages {
+            at_least: 1.0,
+            tube_radius_m: Some(0.5),
+            colour_by: Some("numbers".to_owned()),
+            ..Passages::default()
+        };
+        let parts = super::parts(&look, &lattice, &subject, map);
+        let body = parts.body();
+        let count =
+            |share: f64| body.paint.iter().filter(|&&at| at == Some(map.colour(share))).count();
+        // Two tubes of four rings of twelve; the middle voxel has an end of both.
+        assert_eq!(body.positions.len(), 2 * 48);
+        assert_eq!([0.0, 0.5, 1.0].map(count), [24, 48, 24]);
+        // Row 1 is the second from the north: y from 6 to 8 m of 10.
+        let lowest = body.positions.iter().map(|at| at[2]).fold(f64::MAX, f64::min);
+        let north = body.positions.iter().map(|at| at[1]).fold(f64::MIN, f64::max);
+        assert!((2.4..3.0).contains(&lowest) && (7.0..7.6).contains(&north), "{lowest} {north}");
+    }
+
+    #[test]
+    fn arrows_point_at_sources_and_away_from_sinks() {
+        let (lattice, mut subject) = diagonal_channel();
+        subject.values.fill(0.0);
+        subject.places =
+            CavePlaces { sources: vec![[5.0, 5.0, 9.0]], sinks: vec![[9.0, 5.0, 5.0]] };
+        let map = ColourMap::named("batlow").unwrap();
+        let parts = super::parts(&Passages::default(), &lattice, &subject, map);
+        let body = parts.body();
+        let extreme = |mark: Mark, axis: usize| {
+            let of = body.positions.iter().zip(body.paint);
+            of.filter(|(_, paint)| **paint == Some(mark.colour()))
+                .map(|(at, _)| at[axis])
+                .fold(f64::MIN, f64::max)
+        };
+        let length_m = 0.11 * 300_f64.sqrt();
+        assert!((extreme(Mark::Source, 2) - (9.0 + length_m)).abs() < 1e-9);
+        assert!((extreme(Mark::Sink, 0) - (9.0 + length_m)).abs() < 1e-9);
+        let frame = frame([10.0; 3]);
+        assert!(frame[1][2] > 9.0 + length_m);
+        let bare = Passages { marks: false, ..Passages::default() };
+        assert!(super::parts(&bare, &lattice, &subject, map).body().positions.is_empty());
+    }
+}

@@ -1,6 +1,7 @@
 //! Voxels of at least a value as a body in perspective.
 
 use landform_graph::Lattice;
+use landform_sim::parameters::Problem;
 use landform_view::body::{BodyOptions, Cut, Parts, render};
 use landform_view::{ColourMap, Image, ViewError};
 use schemars::JsonSchema;
@@ -113,6 +114,17 @@ impl Passages {
             depth_cue: self.depth_cue,
             ..BodyOptions::new(colours, [[0.0; 3], top])
         }
+    }
+
+    /// Refuses a camera that looks far away from the block.
+    pub(super) fn check(&self) -> Result<(), Problem> {
+        const FARTHEST: f64 = 10.0;
+        let Some((x, y, z)) = self.focus else { return Ok(()) };
+        if [x, y, z].iter().all(|share| share.abs() <= FARTHEST) {
+            return Ok(());
+        }
+        let message = format!("the camera looks at ({x}, {y}, {z})");
+        Err(Problem::new("focus", message, "shares of the block, from -10 to 10"))
     }
 
     /// A tiny picture with all the settings, for what only drawing finds wrong.
