@@ -4,16 +4,21 @@
 //!   library that is called once a sample and computes with half the digits: with the cells of all
 //!   octaves along the axes, turned from octave to octave, and of simplex noise;
 //! - `8 cellular octaves`: distances to the nearest points, against the same library's;
+//! - `Dendry`: distances to a tree of four levels and terrain around one of three, on 512 by 512 nodes as in
+//!   the paper, against the definition, which grows the tree anew for every node;
 //! - `spectral fBm`: against the inverse transforms alone, along contiguous columns and rows, without
 //!   random numbers and without a transposition.
 
 mod measure;
 
 use std::hint::black_box;
+use std::path::Path;
 
 use fastnoise_lite::{CellularReturnType, FastNoiseLite, FractalType, NoiseType};
 use landform::graph::{Boundary, Connectivity, Lattice};
-use landform::synth::{Basis, FractalNoise, Generator, SpectralFbm};
+use landform::synth::{
+    Basis, Dendry, DendryTerrain, DendryView, FractalNoise, Generator, Node, SpectralFbm,
+};
 use measure::{Effort, pairs, table};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
@@ -33,6 +38,7 @@ fn main() {
             octaves(effort, &lattice);
             spectral(effort, &lattice);
         }
+        dendry(effort);
     });
 }
 
@@ -69,6 +75,34 @@ fn peer(kind: NoiseType) -> FastNoiseLite {
     peer.set_fractal_octaves(Some(8));
     peer.set_frequency(Some(1.0 / 256.0));
     peer
+}
+
+fn dendry(effort: Effort) {
+    const SIDE: usize = 512;
+    let noise =
+        FractalNoise { amplitude_m: 300.0, wavelength_m: 1024.0, octaves: 1, ..Default::default() };
+    let terrain = DendryTerrain { relief_m: Some([-150.0, 150.0]), ..Default::default() };
+    let distance = Dendry { levels: 4, cell_m: 512.0 / 3.0, ..Default::default() };
+    let terrain = Dendry {
+        control: Node::Noise(noise),
+        cell_m: 128.0,
+        levels: 3,
+        shows: DendryView::Terrain(terrain),
+        ..Default::default()
+    };
+    let cases =
+        [("distance, n = 4", distance, 100, "50 ns"), ("terrain, n = 3", terrain, 4, "150 ns")];
+    for (name, dendry, defined, reach) in cases {
+        let function = dendry.function(Path::new(""), 1.0, 5).expect("a function");
+        let ours = || black_box(function.values([0; 2], [SIDE; 2])).len();
+        let definition = || {
+            let nodes = (0..defined).map(|node| [node * 37 % 512, node * 101 % 512]);
+            black_box(nodes.map(|node| function.value(node)).sum::<f64>());
+            defined as usize
+        };
+        let name = format!("Dendry, {name}, {SIDE}x{SIDE}");
+        pairs(effort.rounds(5), ours, definition).print(&name, "its definition", reach);
+    }
 }
 
 fn spectral(effort: Effort, lattice: &Lattice) {

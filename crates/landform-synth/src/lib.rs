@@ -18,6 +18,7 @@
 //! periodic axes.
 
 mod course;
+mod dendry;
 mod error;
 pub mod exact;
 mod faulting;
@@ -35,13 +36,15 @@ mod sinusoid;
 mod smooth;
 mod tree;
 mod uniform;
+mod volume;
 
+pub use dendry::{Dendry, DendryFunction, DendryTerrain, DendryView};
 pub use error::SynthError;
 pub use faulting::{FaultProfile, FaultTrace, Faulting};
 pub use fbm::{AmplitudeLaw, SpectralFbm};
 pub use fractal::{Basis, Cascade, FractalNoise, OctaveShape, Warp};
 pub use hills::{Cone, GaussianHill};
-pub use mask::{KnownFractal, Mask, MaskSource};
+pub use mask::{KnownFractal, Mask, MaskSource, RasterGround};
 pub use midpoint::{MidpointDisplacement, Subdivision};
 pub use noise::{Distribution, WhiteNoise};
 pub use ramp::Ramp;
@@ -50,10 +53,14 @@ pub use scenario::register;
 pub use sinusoid::Sinusoid;
 pub use smooth::SmoothNoise;
 pub use tree::{
-    Bell, Bounds, ConstructionTree, Curve, Deform, Disc, Node, Onto, Place, Plane,
+    Bell, Bounds, ConstructionTree, Curve, Deform, Disc, Node, Onto, Place, Plane, RadialRamp,
     SelectiveScaling, Squig, Terraces, Terrain, VerticalMap, Warped, Weigh,
 };
 pub use uniform::Uniform;
+pub use volume::{
+    Ball, Blended, Block, Cut, ImplicitVolume, Instance, Instances, Noised, Roughness, Tube,
+    Volume, VolumeNode,
+};
 
 use landform_graph::Lattice;
 

@@ -5,9 +5,9 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, ConstructionTree, Faulting, FractalNoise, GaussianHill, Generator, Mask,
-    MidpointDisplacement, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm, SynthError, Uniform,
-    WhiteNoise,
+    Cone, ConstructionTree, Dendry, Faulting, FractalNoise, GaussianHill, Generator,
+    ImplicitVolume, Mask, MidpointDisplacement, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
+    SynthError, Uniform, WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
@@ -25,7 +25,8 @@ macro_rules! scenario_names {
         pub fn register(registry: &mut Registry) {
             registry$(.initial::<$generator>())*;
             // These read files, for which they want the folder of the scenario.
-            registry.initial::<ConstructionTree>().initial::<Mask>();
+            registry.initial::<ConstructionTree>().initial::<Mask>().initial::<Dendry>();
+            registry.initial::<ImplicitVolume>();
         }
     };
 }

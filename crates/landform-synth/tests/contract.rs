@@ -21,6 +21,8 @@ fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json
         }
         "Faulting" => Box::new(serde_json::from_value::<Faulting>(parameters)?),
         "ConstructionTree" => Box::new(serde_json::from_value::<ConstructionTree>(parameters)?),
+        "Dendry" => Box::new(serde_json::from_value::<Dendry>(parameters)?),
+        "ImplicitVolume" => Box::new(serde_json::from_value::<ImplicitVolume>(parameters)?),
         "Mask" => Box::new(serde_json::from_value::<Mask>(parameters)?),
         "SpectralFbm" => Box::new(serde_json::from_value::<SpectralFbm>(parameters)?),
         other => panic!("no generator {other}"),
@@ -42,6 +44,8 @@ fn generators() -> Vec<(&'static str, schemars::Schema)> {
         ("MidpointDisplacement", schemars::schema_for!(MidpointDisplacement)),
         ("Faulting", schemars::schema_for!(Faulting)),
         ("ConstructionTree", schemars::schema_for!(ConstructionTree)),
+        ("Dendry", schemars::schema_for!(Dendry)),
+        ("ImplicitVolume", schemars::schema_for!(ImplicitVolume)),
         ("Mask", schemars::schema_for!(Mask)),
         ("SpectralFbm", schemars::schema_for!(SpectralFbm)),
     ]
@@ -135,6 +139,7 @@ fn only_random_fields_depend_on_the_seed() {
             "GaussianHill",
             "Ridge",
             "ConstructionTree",
+            "ImplicitVolume",
             "Mask",
         ];
         assert_eq!(first == second, even.contains(&name), "{name}");
@@ -145,10 +150,24 @@ fn only_random_fields_depend_on_the_seed() {
 /// and of the right length, or refused for its lattice and not for its range.
 #[test]
 fn accepted_parameters_give_finite_fields() {
-    let surfaces =
-        ["SpectralFbm", "FractalNoise", "MidpointDisplacement", "Faulting", "ConstructionTree"];
-    let unclosed =
-        ["Ramp", "Sinusoid", "MidpointDisplacement", "Faulting", "ConstructionTree", "Mask"];
+    let surfaces = [
+        "SpectralFbm",
+        "FractalNoise",
+        "MidpointDisplacement",
+        "Faulting",
+        "ConstructionTree",
+        "Dendry",
+    ];
+    let unclosed = [
+        "Ramp",
+        "Sinusoid",
+        "MidpointDisplacement",
+        "Faulting",
+        "ConstructionTree",
+        "Dendry",
+        "ImplicitVolume",
+        "Mask",
+    ];
     let mut fields = 0;
     for (name, schema) in generators() {
         for Number { name: parameter, limits, .. } in numbers(&schema) {
@@ -163,7 +182,7 @@ fn accepted_parameters_give_finite_fields() {
                         }
                         Err(SynthError::OutOfRange { parameter, value, least, most, .. }) => {
                             let of_lattice = match parameter {
-                                "correlation_length_m" | "wavelength_m" => value < least,
+                                "correlation_length_m" | "wavelength_m" | "cell_m" => value < least,
                                 "levels" => value > most,
                                 _ => false,
                             };

@@ -2,6 +2,7 @@
 
 mod outline;
 mod picture;
+mod raster_ground;
 mod source;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,7 @@ use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use raster_ground::RasterGround;
 pub use source::{KnownFractal, MaskSource};
 
 use crate::error::Checks;

@@ -37,7 +37,7 @@ impl Picture {
         let path = folder.join(path);
         let limits = ReadLimits { max_cells: super::MOST_PIXELS as u64 };
         let file = read_raster_file(&path, &limits).map_err(|error| unusable(error.to_string()))?;
-        let mut shares = file.raster;
+        let shares = file.raster;
         shares.complete(&path).map_err(|error| unusable(error.to_string()))?;
         let [least, most] = shares.range().unwrap_or_default();
         if least == most {
@@ -45,10 +45,16 @@ impl Picture {
             let problem = format!("{path} has the value {least} everywhere; it shows no region");
             return Err(unusable(problem));
         }
-        let scale = 1.0 / (most - least);
-        shares.values.iter_mut().for_each(|value| *value = (*value - least) * scale);
-        let slope = steepest(&shares) / pixel;
-        Ok(Self { shares, at, pixel, slope })
+        Ok(Self::new(shares, at, pixel))
+    }
+
+    /// A raster without gaps, the middle of whose south-western pixel lies at `at`.
+    pub fn new(mut raster: Raster, at: [f64; 2], pixel: f64) -> Self {
+        let [least, most] = raster.range().unwrap_or_default();
+        let scale = if most > least { 1.0 / (most - least) } else { 0.0 };
+        raster.values.iter_mut().for_each(|value| *value = (*value - least) * scale);
+        let slope = steepest(&raster) / pixel;
+        Self { shares: raster, at, pixel, slope }
     }
 
     /// Number of columns and rows.

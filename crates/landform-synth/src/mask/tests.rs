@@ -93,6 +93,40 @@ fn pictures_lie_as_they_are_seen() {
 
 /// At 60.005 degrees a degree of latitude is 111.4124 km on the ellipsoid, and one of longitude
 /// 55.7916 km.
+/// Rasters with cells of any width, whose corner lies at that of the first node's cell.
+#[test]
+fn rasters_are_ground() {
+    let folder = std::env::temp_dir().join(format!("landform_ground_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 80\n";
+    std::fs::write(folder.join("coarse.asc"), format!("{head}30 50\n10 20\n")).unwrap();
+    std::fs::write(folder.join("level.asc"), format!("{head}7 7\n7 7\n")).unwrap();
+    let ground = RasterGround { path: "coarse.asc".into(), scale: 2.0, ..Default::default() };
+    let surface = ground.surface(&folder, 10.0).unwrap();
+    // The middle of the south-western cell lies 40 m from its corner, that of the node 5 m.
+    for (point, height) in [
+        ([35.0, 35.0], 20.0),
+        ([115.0, 35.0], 40.0),
+        ([35.0, 115.0], 60.0),
+        ([75.0, 75.0], 55.0),
+        ([0.0, 0.0], 20.0),
+        ([999.0, 999.0], 100.0),
+    ] {
+        assert!((surface.at(point) - height).abs() < 1e-9, "{point:?} {}", surface.at(point));
+    }
+    assert!((surface.slope() - 60.0_f64.hypot(40.0) / 80.0).abs() < 1e-9, "{}", surface.slope());
+    let moved = RasterGround { at_m: [100.0, 0.0], spacing_m: Some(40.0), ..ground.clone() };
+    assert!((moved.surface(&folder, 10.0).unwrap().at([115.0, 15.0]) - 20.0).abs() < 1e-9);
+    let level = RasterGround { path: "level.asc".into(), ..Default::default() };
+    assert_eq!(level.surface(&folder, 10.0).unwrap().at([3.0, 4.0]), 7.0);
+    for (path, message) in [("", "no file is named"), ("none.asc", "none.asc")] {
+        let bad = RasterGround { path: path.into(), ..Default::default() };
+        let refused = bad.surface(&folder, 10.0).unwrap_err().to_string();
+        assert!(refused.contains(message), "{refused}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 #[test]
 fn files_of_lines_become_metres() {
     let folder = std::env::temp_dir().join(format!("landform_outline_{}", std::process::id()));

@@ -67,7 +67,12 @@ impl<'a> Builder<'a> {
             }
             Node::Bell(bell) => boxed(bell.check().map(|()| *bell)),
             Node::Plane(plane) => boxed(PlaneSurface::new(plane)),
+            Node::RadialRamp(ramp) => boxed(ramp.check().map(|()| *ramp)),
             Node::Mask(mask) => boxed(self.mask(mask)),
+            Node::Raster(raster) => {
+                let read = raster.surface(self.folder, self.frame.spacing);
+                boxed(read.and_then(|ground| self.counted(ground)))
+            }
             Node::Noise(noise) => boxed(NoiseSurface::new(*noise, &self.frame, seed)),
             Node::Blend(children) => {
                 let children = children.iter().enumerate();
@@ -114,7 +119,11 @@ impl<'a> Builder<'a> {
 
     /// Reads a mask.
     fn mask(&mut self, mask: &Mask) -> Result<MaskSurface, SynthError> {
-        let mask = MaskSurface::new(mask, self.folder, self.frame.spacing)?;
+        self.counted(MaskSurface::new(mask, self.folder, self.frame.spacing)?)
+    }
+
+    /// Counts the parts of a mask or a raster.
+    fn counted(&mut self, mask: MaskSurface) -> Result<MaskSurface, SynthError> {
         let [points, pixels] = mask.parts();
         self.pixels += pixels;
         within(self.pixels, MOST_PIXELS, "pixels of masks")?;

@@ -11,6 +11,7 @@ mod noise;
 mod onto;
 mod place;
 mod plane;
+mod radial_ramp;
 mod region;
 mod squig;
 mod surface;
@@ -35,6 +36,7 @@ pub use node::Node;
 pub use onto::Onto;
 pub use place::Place;
 pub use plane::{Bell, Plane};
+pub use radial_ramp::RadialRamp;
 pub use squig::Squig;
 pub use vertical::{Deform, SelectiveScaling, Terraces, VerticalMap};
 pub use warp::Warped;
@@ -58,10 +60,11 @@ const NAME: &str = "ConstructionTree";
 /// feature primitives"; Guérin et al. 2016, "Sparse representation of terrains").
 ///
 /// Every node of the tree gives an elevation `h(p)` and a weight `a(p)`, at least 0, for every
-/// place `p`: metres east and north of the south-western node of the lattice. Leaves are
-/// landforms (`Disc`, `Curve`, `Squig`, `Bell`, `Plane`, `Noise`, `Mask`), the other nodes put them together
-/// (`Blend`, `Replace`, `Add`, `Carve`, `Raise`) or change them (`Weigh`, `Place`, `Warp`,
-/// `Deform`). Where the root has a weight below 1, that share of it replaces `ground_m`.
+/// place `p`: metres east and north of the south-western node of the lattice. Leaves are landforms
+/// (`Disc`, `Curve`, `Squig`, `Bell`, `Plane`, `RadialRamp`, `Noise`, `Mask`, `Raster`), the other
+/// nodes put them together (`Blend`, `Replace`, `Add`, `Carve`, `Raise`) or change them (`Weigh`,
+/// `Place`, `Warp`, `Deform`). Where the root has a weight below 1, that share of it replaces
+/// `ground_m`.
 ///
 /// From node to node goes a bound of the slope, a Lipschitz constant; every kind of node states
 /// its formula.
@@ -107,13 +110,10 @@ impl ConstructionTree {
         spacing_m: f64,
         seed: u64,
     ) -> Result<Terrain, SynthError> {
-        let checks = Checks(NAME);
-        checks.length("spacing_m", spacing_m, f64::MIN_POSITIVE)?;
-        checks.elevation("ground_m", self.ground_m)?;
-        let frame = Frame::open(spacing_m);
-        let root = Builder::new(frame, folder, seed).build(&self.of, "of", 1)?;
-        let ground = Box::new(PlaneSurface::level(self.ground_m));
-        Ok(Terrain { root: OntoSurface { meeting: Meeting::Replace, ground, by: root } })
+        Checks(NAME).elevation("ground_m", self.ground_m)?;
+        let mut terrain = Terrain::of_node(&self.of, "of", folder, spacing_m, seed)?;
+        terrain.root.ground = Box::new(PlaneSurface::level(self.ground_m));
+        Ok(terrain)
     }
 }
 
@@ -175,6 +175,21 @@ pub struct Terrain {
 }
 
 impl Terrain {
+    /// The terrain of a node on ground at height 0. Problems, and random numbers, are those of the
+    /// node at `path`; files are relative to `folder`.
+    pub(crate) fn of_node(
+        node: &Node,
+        path: &str,
+        folder: &Path,
+        spacing_m: f64,
+        seed: u64,
+    ) -> Result<Self, SynthError> {
+        Checks(NAME).length("spacing_m", spacing_m, f64::MIN_POSITIVE)?;
+        let by = Builder::new(Frame::open(spacing_m), folder, seed).build(node, path, 1)?;
+        let ground = Box::new(PlaneSurface::level(0.0));
+        Ok(Self { root: OntoSurface { meeting: Meeting::Replace, ground, by } })
+    }
+
     /// Elevation in metres at a point, in metres east and north of the origin.
     pub fn elevation(&self, point: [f64; 2]) -> f64 {
         self.root.sample(&[point]).elevation[0]

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Bell, Curve, Deform, Disc, Onto, Place, Plane, Squig, Warped, Weigh};
-use crate::{FractalNoise, Mask};
+use super::{Bell, Curve, Deform, Disc, Onto, Place, Plane, RadialRamp, Squig, Warped, Weigh};
+use crate::{FractalNoise, Mask, RasterGround};
 
 /// A node of a construction tree: a landform, or what is made of others. Each is documented, with
 /// its equation and its bound of the slope, where its parameters are.
@@ -20,9 +20,13 @@ pub enum Node {
     Bell(Bell),
     /// A plane, level or tilted.
     Plane(Plane),
-    /// The values of a mask as heights, of weight 1 everywhere. L is their difference over the width
-    /// of the edge, or the largest from pixel to pixel.
+    /// A funnel or a cone without end.
+    RadialRamp(RadialRamp),
+    /// The values of a mask as heights, of weight 1 everywhere. L is their difference over the
+    /// width of the edge, or the largest from pixel to pixel.
     Mask(Mask),
+    /// The heights of a raster file, whose cells may be much larger than the spacing.
+    Raster(RasterGround),
     /// Octaves of noise everywhere; those below the spacing are left out. L is the sum of what
     /// octaves and their cascade can rise together, 1 + the slope of the warp times that if there
     /// is one; the noise rarely comes near it where octaves are many.

@@ -233,7 +233,7 @@ pub(crate) struct ExportArguments {
 
 #[derive(Args)]
 pub(crate) struct ReproduceArguments {
-    /// Target files, or their names below scenarios/thesis: table_4_1
+    /// Target files, or their names below scenarios/thesis (table_4_1) or scenarios (dendry/table_1)
     #[arg(required = true)]
     pub figures: Vec<String>,
     /// Output folder; without it a new one below ./out

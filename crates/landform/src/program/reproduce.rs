@@ -68,10 +68,12 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
     talk::say(&format!("report {}\n", folder.join("report.json").display()))
 }
 
-/// The target file of a figure: a path, or the name of a file below `scenarios/thesis`.
+/// The target file of a figure: a path, the name of a file below `scenarios/thesis`, or that of one
+/// below `scenarios` with its folder.
 fn find(name: &str) -> Result<PathBuf, String> {
-    let named = Path::new("scenarios/thesis").join(format!("{name}.targets.ron"));
-    let candidates = [PathBuf::from(name), named.clone()];
+    let below = |folder: &str| Path::new(folder).join(format!("{name}.targets.ron"));
+    let named = below("scenarios/thesis");
+    let candidates = [PathBuf::from(name), named.clone(), below("scenarios")];
     candidates
         .into_iter()
         .find(|path| path.is_file())
@@ -96,7 +98,7 @@ fn table(report: &FigureReport) -> String {
     let mut text = format!("{}: {}\n", report.id, report.title);
     text += &format!(
         "  {:width$}  {:>9}  {:>9}  {:>18}  {:>16}  verdict\n",
-        "", "thesis", "ours", "over the seeds", "band"
+        "", report.source, "ours", "over the seeds", "band"
     );
     for target in &report.targets {
         let thesis = target.thesis.map_or("-".to_owned(), |value| value.to_string());

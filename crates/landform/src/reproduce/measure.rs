@@ -11,17 +11,17 @@ use serde::Serialize;
 
 use super::data::{ANALYSIS, Data};
 use super::targets::Copy;
-use super::{Figure, Quantity, RunEntry, Source, Target, sheet};
+use super::{Average, Figure, Quantity, RunEntry, Source, Target, sheet};
 
 /// Whether a number was reproduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// The median lies in the band, and so do the numbers of most seeds.
+    /// The average lies in the band, and so do the numbers of most seeds.
     Reproduced,
-    /// The median lies in the band, but a seed in four or more does not.
+    /// The average lies in the band, but a seed in four or more does not.
     Partly,
-    /// The median lies outside the band.
+    /// The average lies outside the band.
     Missed,
     /// There is no band: the number stands beside the thesis' own.
     Printed,
@@ -32,10 +32,12 @@ pub enum Verdict {
 /// Our numbers beside those of a figure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FigureReport {
-    /// Name in the thesis.
+    /// Name in the thesis, or another source.
     pub id: String,
     /// What it shows.
     pub title: String,
+    /// What the numbers beside ours are from.
+    pub source: String,
     /// The scenarios that made it.
     pub scenarios: Vec<PathBuf>,
     /// The files of data that were analysed for it.
@@ -51,7 +53,7 @@ pub struct FigureReport {
 pub struct TargetReport {
     /// What it is.
     pub name: String,
-    /// Median over the seeds; none where data are absent.
+    /// Average over the seeds, the median unless the figure says otherwise; none where data are absent.
     pub value: Option<f64>,
     /// The number of each seed, from seed 1.
     pub seeds: Vec<f64>,
@@ -133,10 +135,12 @@ pub fn measure(
     let sheet = sheet::write(figure, &drawn, places.output)?;
     let drawn = drawn.into_iter().flat_map(|(_, pictures)| pictures);
     let judged = figure.targets.iter().zip(values);
-    let judged = judged.map(|(target, seeds)| judge(target, seeds, data.absence(target)));
+    let judged =
+        judged.map(|(target, seeds)| judge(target, figure.average, seeds, data.absence(target)));
     Ok(FigureReport {
         id: figure.id.clone(),
         title: figure.title.clone(),
+        source: figure.source.clone(),
         scenarios: figure.runs.iter().map(|run| run.scenario.clone()).collect(),
         data: data.analysed.iter().map(|(_, found)| found.file.clone()).collect(),
         pictures: sheet.into_iter().chain(drawn).collect(),
@@ -226,10 +230,13 @@ fn quantity(quantity: &Quantity, runs: &Runs<'_>) -> Result<f64, String> {
 }
 
 /// Compares the numbers of a target; there are none where data are absent.
-fn judge(target: &Target, seeds: Vec<f64>, absence: Option<&str>) -> TargetReport {
-    let mut sorted = seeds.clone();
-    sorted.sort_by(f64::total_cmp);
-    let value = sorted.get(sorted.len() / 2).copied();
+fn judge(
+    target: &Target,
+    average: Average,
+    seeds: Vec<f64>,
+    absence: Option<&str>,
+) -> TargetReport {
+    let value = average.of(&seeds);
     let outside = seeds.iter().filter(|&&value| target.band.holds(value) == Some(false)).count();
     let verdict = match value.map(|value| target.band.holds(value)) {
         None => Verdict::Absent,
@@ -263,8 +270,18 @@ mod tests {
             band,
             reason: String::new(),
         };
-        let report = judge(&target, seeds.to_vec(), None);
+        let report = judge(&target, Average::Median, seeds.to_vec(), None);
         (report.value.unwrap_or(f64::NAN), report.verdict)
+    }
+
+    #[test]
+    fn averages_are_medians_or_means() {
+        let seeds = [5.0, 1.0, 3.0, 2.0, 9.0];
+        assert_eq!(
+            [Average::Median, Average::Mean].map(|of| of.of(&seeds)),
+            [Some(3.0), Some(4.0)]
+        );
+        assert_eq!([Average::Median, Average::Mean].map(|of| of.of(&[])), [None; 2]);
     }
 
     #[test]

@@ -4,16 +4,22 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-/// A figure or table of the thesis with its numbers.
+/// A figure or table of the thesis, or of another source, with its numbers.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
-    /// Name in the thesis: `table 4.1`.
+    /// Name in the thesis, or another source: `table 4.1`.
     pub id: String,
     /// What it shows.
     pub title: String,
-    /// Number of seeds that medians are taken over.
+    /// What the numbers beside ours are from: a heading of the table.
+    #[serde(default = "thesis")]
+    pub source: String,
+    /// Number of seeds.
     pub seeds: u64,
+    /// What is taken of the numbers of all seeds.
+    #[serde(default)]
+    pub average: Average,
     /// Pictures in a row of one figure of the first pictures of all runs; no such figure when 0.
     #[serde(default)]
     pub columns: usize,
@@ -25,6 +31,35 @@ pub struct Figure {
     pub analyses: Vec<AnalysisEntry>,
     /// The numbers.
     pub targets: Vec<Target>,
+}
+
+fn thesis() -> String {
+    "thesis".to_owned()
+}
+
+/// One number for those of several seeds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Average {
+    /// The one in the middle, which single odd runs do not change.
+    #[default]
+    Median,
+    /// The arithmetic mean, as published means want it.
+    Mean,
+}
+
+impl Average {
+    /// The average of some numbers; none of none.
+    pub fn of(self, values: &[f64]) -> Option<f64> {
+        match self {
+            Self::Median => {
+                let mut sorted = values.to_vec();
+                sorted.sort_by(f64::total_cmp);
+                sorted.get(sorted.len() / 2).copied()
+            }
+            Self::Mean if values.is_empty() => None,
+            Self::Mean => Some(values.iter().sum::<f64>() / values.len() as f64),
+        }
+    }
 }
 
 /// A scenario to run with every seed.
@@ -121,7 +156,7 @@ pub struct Target {
     pub name: String,
     /// How it is taken from the runs.
     pub value: Quantity,
-    /// The thesis' number.
+    /// The thesis' number, or that of the source.
     #[serde(default)]
     pub thesis: Option<f64>,
     /// What counts as reproduced.

@@ -60,6 +60,12 @@ fn bounds_of_simple_trees_hold_and_are_close() {
     let raised = |by: VerticalMap| Node::Deform(Deform { of: Box::new(Node::Noise(single)), by });
     let cases: Vec<(&str, Node, f64)> = vec![
         ("plane", tilted.clone(), 1.0001),
+        (
+            "funnel",
+            Node::RadialRamp(RadialRamp { center_m: [300.0, 600.0], ..Default::default() }),
+            1.0001,
+        ),
+        ("cone", Node::RadialRamp(RadialRamp { tilt_deg: -40.0, ..Default::default() }), 1.0001),
         ("bell", bell.clone(), 1.01),
         ("noise", Node::Noise(single), 1.4),
         ("octaves", Node::Noise(noise()), 2.5),
