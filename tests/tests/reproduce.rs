@@ -127,6 +127,31 @@ fn runs_are_changed_repeated_and_put_together() {
     }
 }
 
+#[test]
+fn other_papers_have_folders_means_and_names_of_their_own() {
+    let scratch = Scratch::new("reproduce_folder");
+    fs::create_dir_all(scratch.path("scenarios/paper")).expect("a folder");
+    scratch.write("scenarios/paper/small.ron", SMALL);
+    let of_seeds = |average: &str| {
+        let head = format!("source: \"paper\", average: {average}, seeds: 3,");
+        let targets = TARGETS.replace("seeds: 3,", &head);
+        scratch.write("scenarios/paper/t.targets.ron", targets);
+        let line = "reproduce paper/t -o o --force";
+        let told = Program::within(scratch.folder()).line(line).run().good();
+        assert!(told.contains("paper") && !told.contains("thesis"), "{told}");
+        let report = fs::read_to_string(scratch.path("o/report.json")).expect("a report");
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        let target = &report["figures"][0]["targets"][0];
+        let seeds = target["seeds"].as_array().expect("seeds").iter();
+        let seeds: Vec<f64> = seeds.map(|value| value.as_f64().expect("a number")).collect();
+        (target["value"].as_f64().expect("a number"), seeds)
+    };
+    let (mean, mut seeds) = of_seeds("Mean");
+    assert!((mean - seeds.iter().sum::<f64>() / 3.0).abs() < 1e-12);
+    seeds.sort_by(f64::total_cmp);
+    assert_eq!(of_seeds("Median").0, seeds[1]);
+}
+
 const DATA: &str = r#"(
     id: "figure 0.2",
     title: "hills",
