@@ -39,7 +39,7 @@ pub struct CaveIndices {
     pub totals: CaveTotals,
     /// Length over the area of the field, m/m².
     pub network_density: f64,
-    /// Area over that of the field, %.
+    /// Area on the map over that of the field, %.
     pub areal_coverage_percent: f64,
     /// Volume over that of the block of the field, %.
     pub porosity_percent: f64,
@@ -52,9 +52,10 @@ pub struct CaveIndices {
 impl CaveIndices {
     /// Measures a cave of voxels, `spacing_m` metres a side.
     ///
-    /// Length is that of the network of the [centreline]; area that of the [sheet](plan_sheet), each
-    /// of whose voxels stands for as much as the slope of the sheet there makes it larger than on the
-    /// map.
+    /// Length is that of the [centreline], with the lines to bumps of the walls; area that of the
+    /// [sheet](plan_sheet), each of whose voxels stands for as much as the slope of the sheet there
+    /// makes it larger than on the map. Coverage is by the area on the map: the areas of table 5.3 of
+    /// the thesis only agree with each other in this way.
     ///
     /// # Errors
     /// [`CaveNetworkError::Empty`] of a set without passages.
@@ -63,10 +64,6 @@ impl CaveIndices {
         let network = CaveNetwork::of_centreline(&line, spacing_m)?;
         let square = spacing_m * spacing_m;
         let plan = Plan::of(cave);
-        let cells = match field {
-            CaveField::Rectangle => plan.rectangle(),
-            CaveField::Near(radius_m) => plan.near(radius_m / spacing_m),
-        };
         let lowest = cave.iter().map(|[_, _, layer]| layer).min().unwrap_or(0);
         let highest = cave.iter().map(|[_, _, layer]| layer).max().unwrap_or(0);
         Ok(Self::of_totals(CaveTotals {
@@ -74,18 +71,28 @@ impl CaveIndices {
             area_m2: sheet_area(&plan_sheet(cave)) * square,
             plan_area_m2: plan.passages() as f64 * square,
             volume_m3: cave.len() as f64 * square * spacing_m,
-            field_m2: cells as f64 * square,
+            field_m2: plan.cells(field, spacing_m) as f64 * square,
             height_m: (highest - lowest + 1) as f64 * spacing_m,
         }))
     }
 
+    /// The indices of the same `cave` for another field.
+    #[must_use]
+    pub fn within(&self, field: CaveField, cave: &VoxelSet, spacing_m: f64) -> Self {
+        let cells = Plan::of(cave).cells(field, spacing_m);
+        Self::of_totals(CaveTotals {
+            field_m2: cells as f64 * spacing_m * spacing_m,
+            ..self.totals
+        })
+    }
+
     /// The indices of what was measured of a cave, by survey or otherwise.
     pub fn of_totals(totals: CaveTotals) -> Self {
-        let CaveTotals { length_m, area_m2, volume_m3, field_m2, height_m, .. } = totals;
+        let CaveTotals { length_m, area_m2, plan_area_m2, volume_m3, field_m2, height_m } = totals;
         Self {
             totals,
             network_density: length_m / field_m2,
-            areal_coverage_percent: 100.0 * area_m2 / field_m2,
+            areal_coverage_percent: 100.0 * plan_area_m2 / field_m2,
             porosity_percent: 100.0 * volume_m3 / (field_m2 * height_m),
             length_to_width: length_m * length_m / area_m2,
             width_m: area_m2 / length_m,
@@ -117,6 +124,14 @@ impl Plan {
 
     fn passages(&self) -> usize {
         self.filled.iter().filter(|&&filled| filled).count()
+    }
+
+    /// Cells of a field.
+    fn cells(&self, field: CaveField, spacing_m: f64) -> usize {
+        match field {
+            CaveField::Rectangle => self.rectangle(),
+            CaveField::Near(radius_m) => self.near(radius_m / spacing_m),
+        }
     }
 
     fn rectangle(&self) -> usize {

@@ -7,6 +7,7 @@ mod passage;
 mod paths;
 mod reduced;
 mod shape;
+mod surveyed;
 
 pub use indices::{CaveField, CaveIndices, CaveTotals};
 pub use network::{Branch, CaveNetwork, CaveNetworkError};

@@ -211,7 +211,7 @@ impl CaveNetwork {
     }
 
     /// The network of other legs between its stations, without stations that are not used.
-    fn with_legs(&self, legs: &[[usize; 2]]) -> Self {
+    pub(super) fn with_legs(&self, legs: &[[usize; 2]]) -> Self {
         let mut number = vec![usize::MAX; self.stations.len()];
         legs.iter().flatten().for_each(|&station| number[station] = 0);
         let mut stations = Vec::new();

@@ -52,6 +52,31 @@ impl CaveNetwork {
     }
 }
 
+/// How wide a passage is around a point within it, in metres: the larger extent of its cross-section.
+///
+/// That is the longest way from wall to wall across the direction in which that is shortest, of 13
+/// directions along axes and diagonals. Where passages cross it is the width of them, not their length.
+pub(super) fn passage_width(set: &VoxelSet, at: [f64; 3], spacing_m: f64) -> f64 {
+    let directions: Vec<[f64; 3]> = (14..27)
+        .map(|place| [place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1].map(f64::from))
+        .collect();
+    let extent = |way: &[f64; 3]| {
+        let length = dot(*way, *way).sqrt();
+        let unit = way.map(|part| part / length);
+        reach(set, at, unit, spacing_m) + reach(set, at, unit.map(|part| -part), spacing_m)
+    };
+    let extents: Vec<f64> = directions.iter().map(extent).collect();
+    let across = |along: &[f64; 3]| {
+        let crossing = directions.iter().zip(&extents).filter(|(way, _)| dot(*along, **way) == 0.0);
+        crossing.fold(0.0, |most: f64, (_, &extent)| most.max(extent))
+    };
+    directions.iter().map(across).fold(f64::INFINITY, f64::min)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 /// How far a straight way from a point stays in a set, in metres: from side to side of its voxels.
 fn reach(set: &VoxelSet, from: [f64; 3], way: [f64; 3], spacing_m: f64) -> f64 {
     /// A little beyond a side, in voxels.
@@ -90,5 +115,22 @@ mod tests {
         assert!((middle.left_m + middle.right_m - 1.5).abs() < 1e-6);
         assert!((middle.up_m + middle.down_m - 2.5).abs() < 1e-6);
         assert!((middle.left_m - middle.right_m).abs() < 0.51);
+    }
+
+    #[test]
+    fn widths_are_those_of_cross_sections() {
+        let width = |set: &VoxelSet| passage_width(set, [10.25, 10.25, 2.25], 0.5);
+        // A low wide gallery northwards, a shaft, and two galleries that cross.
+        let low =
+            VoxelSet::new([41, 41, 9], |[x, _, z]| (16..25).contains(&x) && (3..6).contains(&z));
+        assert!((width(&low) - 4.5).abs() < 1e-6, "{}", width(&low));
+        let shaft =
+            VoxelSet::new([41, 41, 9], |[x, y, _]| (19..22).contains(&x) && (19..22).contains(&y));
+        let diagonal = 1.5 * std::f64::consts::SQRT_2;
+        assert!((width(&shaft) - diagonal).abs() < 1e-6, "{}", width(&shaft));
+        let cross = VoxelSet::new([41, 41, 9], |[x, y, z]| {
+            ((19..22).contains(&x) || (19..22).contains(&y)) && (3..6).contains(&z)
+        });
+        assert!((width(&cross) - diagonal).abs() < 1e-6, "{}", width(&cross));
     }
 }

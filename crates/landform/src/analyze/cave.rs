@@ -5,7 +5,7 @@ use std::path::Path;
 use landform_analysis::caves::{
     CaveField, CaveIndices, CaveNetwork, NetworkShape, OBSERVED, Observed,
 };
-use landform_analysis::voxels::{Rule, Turns, VoxelSet, centreline};
+use landform_analysis::voxels::VoxelSet;
 use landform_io::npy::read_array;
 use landform_io::{Fault, IoError, ReadLimits, read_survey};
 use serde::Serialize;
@@ -99,8 +99,7 @@ impl CaveAnalysis {
         let spacing_m = settings.spacing_m.unwrap_or(1.0);
         let set = VoxelSet::at_least([columns, rows, layers], &array.values, settings.at_least);
         let advice = "choose the least value of passages with --at-least";
-        let line = centreline(&set, Turns::Sides, Rule::Supported);
-        let measured = CaveNetwork::of_centreline(&line, spacing_m).and_then(|network| {
+        let measured = CaveNetwork::of_passages(&set, spacing_m).and_then(|network| {
             let indices = CaveIndices::of(&set, spacing_m, CaveField::Rectangle)?;
             Ok((network.resampled(spacing_m), indices))
         });

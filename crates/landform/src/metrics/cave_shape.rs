@@ -1,7 +1,7 @@
 //! The shape of the passages of a volume in numbers.
 
 use landform_analysis::caves::{CaveField, CaveIndices, CaveNetwork, NetworkShape, OBSERVED};
-use landform_analysis::voxels::{Rule, Turns, VoxelSet, centreline};
+use landform_analysis::voxels::VoxelSet;
 use landform_sim::metric::Metric;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -10,7 +10,9 @@ use serde::{Deserialize, Serialize};
 
 /// Morphometric indices of the passages, and the shape of the network of their centreline: length,
 /// area, volume, density, coverage, porosity, width, and the measures of Collon et al. 2017. The
-/// network is that of legs as a surveyor would set them. Nothing is measured without passages.
+/// network is that of legs as a surveyor would set them. With `near_m` the three indices that hang on
+/// the cave field are also given for the whole rectangle (`cave_rectangle_…`). Nothing is measured
+/// without passages.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CaveShape {
@@ -45,12 +47,14 @@ impl Metric for CaveShape {
         let lattice = snapshot.lattice();
         let spacing_m = lattice.spacing();
         let set = VoxelSet::at_least(lattice.size(), &values, self.at_least);
-        let field = self.near_m.map_or(CaveField::Rectangle, CaveField::Near);
-        let line = centreline(&set, Turns::Sides, Rule::Supported);
-        let network = CaveNetwork::of_centreline(&line, spacing_m);
-        let (Ok(network), Ok(indices)) = (network, CaveIndices::of(&set, spacing_m, field)) else {
+        let rectangle = CaveIndices::of(&set, spacing_m, CaveField::Rectangle);
+        let network = CaveNetwork::of_passages(&set, spacing_m);
+        let (Ok(network), Ok(rectangle)) = (network, rectangle) else {
             return Ok(Vec::new());
         };
+        let near =
+            self.near_m.map(|near_m| rectangle.within(CaveField::Near(near_m), &set, spacing_m));
+        let indices = near.as_ref().unwrap_or(&rectangle);
         let shape = NetworkShape::of(&network.resampled(spacing_m));
         let totals = indices.totals;
         let mut numbers = vec![
@@ -67,6 +71,13 @@ impl Metric for CaveShape {
             ("loops", shape.cyclomatic_number as f64),
             ("parts", shape.components as f64),
         ];
+        if near.is_some() {
+            numbers.extend([
+                ("rectangle_density", rectangle.network_density),
+                ("rectangle_coverage_percent", rectangle.areal_coverage_percent),
+                ("rectangle_porosity_percent", rectangle.porosity_percent),
+            ]);
+        }
         let measures = OBSERVED.iter().filter_map(|of| Some((of.name, shape.value(of.name)?)));
         numbers.extend(measures);
         Ok(numbers.into_iter().map(|(name, value)| (format!("cave_{name}"), value)).collect())

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use landform_analysis::caves::{CaveNetwork, PassageSize};
-use landform_analysis::voxels::{Rule, Turns, VoxelSet, centreline};
+use landform_analysis::voxels::VoxelSet;
 use landform_io::{IfExists, write_atomically};
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
@@ -63,9 +63,8 @@ impl FileOutput for Centreline {
         let lattice = snapshot.lattice();
         let spacing_m = lattice.spacing();
         let set = VoxelSet::at_least(lattice.size(), &values, self.at_least);
-        let line = centreline(&set, Turns::Sides, Rule::Supported);
         // A volume without passages is a survey without legs.
-        let network = CaveNetwork::of_centreline(&line, spacing_m)
+        let network = CaveNetwork::of_passages(&set, spacing_m)
             .ok()
             .map(|network| network.resampled(self.tolerance_m.unwrap_or(spacing_m)));
         let sizes = network.as_ref().map(|network| network.passage_sizes(&set, spacing_m));
