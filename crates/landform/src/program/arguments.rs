@@ -234,8 +234,26 @@ pub(crate) struct ExportArguments {
 #[derive(Args)]
 pub(crate) struct ReproduceArguments {
     /// Target files, or their names below scenarios/thesis (table_4_1) or scenarios (dendry/table_1)
-    #[arg(required = true)]
+    #[arg(required_unless_present_any = ["all", "chapter"])]
     pub figures: Vec<String>,
+    /// All figures and tables
+    #[arg(long)]
+    pub all: bool,
+    /// Those of a chapter or an appendix: 4, B
+    #[arg(long, value_name = "CHAPTER", conflicts_with = "all")]
+    pub chapter: Option<String>,
+    /// One seed of each, for a first look
+    #[arg(long, conflicts_with_all = ["seeds", "full"])]
+    pub quick: bool,
+    /// As many seeds as the files say; so it is without this, too
+    #[arg(long, conflicts_with = "seeds")]
+    pub full: bool,
+    /// Runs at once; as many as there are processors without it
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+    /// Go on in a folder where an earlier call was ended: what is done there is kept
+    #[arg(long, requires = "output")]
+    pub resume: bool,
     /// Output folder; without it a new one below ./out
     #[arg(short, long)]
     pub output: Option<PathBuf>,

@@ -1,95 +1,106 @@
 //! `landform reproduce`: numbers of the thesis beside ours.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
-use landform_sim::simulation::{Limits, Progress};
+use landform_sim::simulation::Limits;
 use serde::Serialize;
 
 use super::arguments::ReproduceArguments;
 use super::{Failure, Outcome, folder, interrupt, memory, talk};
-use crate::reproduce::{Figure, FigureReport, Places, Verdict, check, measure};
+use crate::reproduce::{Entry, FigureReport, Record, Verdict, Work, all, find, page};
+
+/// Where the thesis' target files lie, from where the program is called.
+const THESIS: &str = "scenarios/thesis";
 
 /// What `report.json` holds.
 #[derive(Serialize)]
-struct Reproduction {
+struct Reproduction<'a> {
     version: &'static str,
-    figures: Vec<FigureReport>,
+    figures: &'a [FigureReport],
 }
 
 /// Reproduces the figures of the arguments.
 pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>) -> Outcome {
-    let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
-    let limits = Limits { memory_bytes };
     let data = arguments.data.as_deref();
     if let Some(missing) = data.filter(|data| !data.is_dir()) {
         let message = format!("there is no folder {}", missing.display());
         return Err(Failure::Refused(message));
     }
-    let mut figures = Vec::new();
-    for name in &arguments.figures {
-        let path = find(name).map_err(Failure::Refused)?;
-        let mut figure = read(&path).map_err(Failure::Refused)?;
-        figure.seeds = arguments.seeds.unwrap_or(figure.seeds);
-        let base = path.parent().unwrap_or(Path::new("")).to_owned();
-        check(&figure, &base, registry, limits).map_err(|why| {
-            Failure::Refused(format!("{}: {}", path.display(), why.trim_start_matches("error: ")))
-        })?;
-        figures.push((base, figure));
-    }
-    let folder = folder::make(arguments.output.as_deref(), "reproduction", arguments.force)
-        .map_err(Failure::Refused)?;
+    let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let jobs = arguments.jobs.map_or_else(processors, usize::from);
+    let memory_bytes = memory::limit(None).map_err(Failure::Refused)? / jobs.max(1) as u64;
+    let limits = Limits { memory_bytes };
+    let entries = entries(arguments, registry, limits).map_err(Failure::Refused)?;
+    let folder = folder::make(
+        arguments.output.as_deref(),
+        "reproduction",
+        arguments.force || arguments.resume,
+    )
+    .map_err(Failure::Refused)?;
+    let record = if arguments.resume { Record::read(&folder) } else { Ok(Record::new()) };
+    let record = record.map_err(Failure::Refused)?;
     interrupt::watch();
-    let mut reports = Vec::new();
-    for (base, figure) in figures {
-        let mut tell = |what: &str| talk::tell(&format!("{}: {what}", figure.id));
-        let mut hook = |_: &Progress<'_>| match interrupt::asked() {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        let places = Places { base: &base, data, output: &folder };
-        let report = measure(&figure, places, registry, limits, &mut tell, &mut hook);
-        let report = report.map_err(|message| match interrupt::asked() {
-            true => Failure::Interrupted(message),
-            false => Failure::Failed(message),
-        })?;
+    let work = Work {
+        entries: &entries,
+        data,
+        output: &folder,
+        registry,
+        limits,
+        jobs,
+        tell: &|what| talk::tell(what),
+        stop: &interrupt::asked,
+    };
+    let reports = work.reproduce(record).map_err(|message| match interrupt::asked() {
+        true => Failure::Interrupted(format!("{message}; go on with --resume")),
+        false => Failure::Failed(message),
+    })?;
+    for report in &reports {
         let absent = report.targets.iter().filter(|target| target.verdict == Verdict::Absent);
         if let Some(first) = absent.clone().next() {
             let (count, why) = (absent.count(), &first.reason);
-            talk::tell(&format!("{}: {count} numbers want data: {why}", figure.id));
+            talk::tell(&format!("{}: {count} numbers want data: {why}", report.id));
         }
-        talk::say(&table(&report))?;
-        reports.push(report);
+        talk::say(&table(report))?;
     }
-    let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: reports };
-    folder::write_json(&folder.join("report.json"), &reproduction).map_err(Failure::Failed)?;
-    talk::say(&format!("report {}\n", folder.join("report.json").display()))
+    let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: &reports };
+    let [json, html] = ["report.json", "report.html"].map(|name| folder.join(name));
+    folder::write_json(&json, &reproduction).map_err(Failure::Failed)?;
+    let page = page(&reports, &folder).map_err(Failure::Failed)?;
+    folder::write_text(&html, &page).map_err(Failure::Failed)?;
+    talk::say(&format!("report {}\nreport {}\n", json.display(), html.display()))
 }
 
-/// The target file of a figure: a path, the name of a file below `scenarios/thesis`, or that of one
-/// below `scenarios` with its folder.
-fn find(name: &str) -> Result<PathBuf, String> {
-    let below = |folder: &str| Path::new(folder).join(format!("{name}.targets.ron"));
-    let named = below("scenarios/thesis");
-    let candidates = [PathBuf::from(name), named.clone(), below("scenarios")];
-    candidates
-        .into_iter()
-        .find(|path| path.is_file())
-        .ok_or_else(|| format!("there is no target file {name}, nor {}", named.display()))
-}
-
-fn read(path: &Path) -> Result<Figure, String> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let source = landform_sim::text::Source::new(path.display().to_string(), text);
-    let options = ron::Options::default()
-        .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
-        .with_default_extension(ron::extensions::Extensions::UNWRAP_VARIANT_NEWTYPES);
-    options
-        .from_str(source.text())
-        .map_err(|error| landform_sim::text::ron_diagnostic(&source, &error).render(&source))
+/// The figures that the arguments ask for.
+fn entries(
+    arguments: &ReproduceArguments,
+    registry: &Arc<Registry>,
+    limits: Limits,
+) -> Result<Vec<Entry>, String> {
+    let thesis = Path::new(THESIS);
+    let mut paths: Vec<PathBuf> = match (arguments.all, &arguments.chapter) {
+        (false, None) => Vec::new(),
+        (_, chapter) => all(thesis, chapter.as_deref())?,
+    };
+    for name in &arguments.figures {
+        let path = find(name, thesis)?;
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    let mut entries: Vec<Entry> = Vec::with_capacity(paths.len());
+    for path in paths {
+        let mut entry = Entry::read(&path, registry, limits)?;
+        let seeds = if arguments.quick { Some(1) } else { arguments.seeds };
+        entry.figure.seeds = seeds.unwrap_or(entry.figure.seeds).max(1);
+        if let Some(other) = entries.iter().find(|other| other.name == entry.name) {
+            let (name, base) = (&entry.name, other.base.display());
+            return Err(format!("two target files are called {name}, the first in {base}"));
+        }
+        entries.push(entry);
+    }
+    Ok(entries)
 }
 
 /// The numbers of a figure as a table.
@@ -101,12 +112,7 @@ fn table(report: &FigureReport) -> String {
         "", report.source, "ours", "over the seeds", "band"
     );
     for target in &report.targets {
-        let thesis = target.thesis.map_or("-".to_owned(), |value| value.to_string());
-        let digits = decimals(&thesis).max(decimals(&target.band)).max(2);
-        let (ours, seeds) = match target.value {
-            Some(value) => (format!("{value:.digits$}"), range(&target.seeds, digits)),
-            None => ("-".to_owned(), "-".to_owned()),
-        };
+        let [thesis, ours, seeds] = target.columns();
         text += &format!(
             "  {:width$}  {thesis:>9}  {ours:>9}  {seeds:>18}  {:>16}  {:?}\n",
             target.name, target.band, target.verdict,
@@ -116,18 +122,4 @@ fn table(report: &FigureReport) -> String {
         }
     }
     text
-}
-
-/// The smallest and the largest of some numbers.
-fn range(values: &[f64], digits: usize) -> String {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    format!("{low:.digits$} to {high:.digits$}")
-}
-
-/// Most decimals of a number in a text.
-fn decimals(text: &str) -> usize {
-    let after = text.split('.').skip(1);
-    let digits = |rest: &str| rest.chars().take_while(char::is_ascii_digit).count();
-    after.map(digits).max().unwrap_or(0)
 }

@@ -8,7 +8,8 @@ use landform_sim::simulation::Limits;
 use crate::analyze::{Analysis, RasterNumbers, Settings, analyze};
 use crate::metrics::hypsometry_columns;
 
-use super::{AnalysisEntry, Figure, Places, Target};
+use super::measure::Places;
+use super::{AnalysisEntry, Figure, Target};
 
 /// Name of the stage under which a target finds the numbers of a file.
 pub(super) const ANALYSIS: &str = "analysis";
@@ -37,7 +38,7 @@ impl<'a> Data<'a> {
         figure: &'a Figure,
         places: Places<'_>,
         limits: Limits,
-        tell: &mut dyn FnMut(&str),
+        tell: &dyn Fn(&str),
     ) -> Result<Self, String> {
         let (mut analysed, mut absent) = (Vec::new(), BTreeMap::new());
         for entry in &figure.analyses {

@@ -1,71 +1,18 @@
 //! Running the scenarios of a figure and comparing their numbers with the thesis'.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
-use landform_sim::simulation::{Limits, ProgressHook, Report, Simulation};
-use serde::Serialize;
+use landform_sim::simulation::{Limits, Progress, Report, Simulation};
 
 use super::data::{ANALYSIS, Data};
+use super::judge::{FigureReport, judge};
 use super::targets::Copy;
-use super::{Average, Figure, Quantity, RunEntry, Source, Target, sheet};
-
-/// Whether a number was reproduced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// The average lies in the band, and so do the numbers of most seeds.
-    Reproduced,
-    /// The average lies in the band, but a seed in four or more does not.
-    Partly,
-    /// The average lies outside the band.
-    Missed,
-    /// There is no band: the number stands beside the thesis' own.
-    Printed,
-    /// The data that it is taken from are not there: neither reproduced nor missed.
-    Absent,
-}
-
-/// Our numbers beside those of a figure.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FigureReport {
-    /// Name in the thesis, or another source.
-    pub id: String,
-    /// What it shows.
-    pub title: String,
-    /// What the numbers beside ours are from.
-    pub source: String,
-    /// The scenarios that made it.
-    pub scenarios: Vec<PathBuf>,
-    /// The files of data that were analysed for it.
-    pub data: Vec<PathBuf>,
-    /// Pictures of the first seed, relative to the output folder.
-    pub pictures: Vec<PathBuf>,
-    /// The numbers.
-    pub targets: Vec<TargetReport>,
-}
-
-/// Our number beside one of the thesis.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TargetReport {
-    /// What it is.
-    pub name: String,
-    /// Average over the seeds, the median unless the figure says otherwise; none where data are absent.
-    pub value: Option<f64>,
-    /// The number of each seed, from seed 1.
-    pub seeds: Vec<f64>,
-    /// The thesis' number.
-    pub thesis: Option<f64>,
-    /// What counts as reproduced.
-    pub band: String,
-    /// Whether it was reproduced.
-    pub verdict: Verdict,
-    /// What is known about a difference.
-    pub reason: String,
-}
+use super::{Figure, Quantity, RunEntry, Source, Target, sheet};
 
 /// Name under which a target finds the metrics of the state before the first iteration.
 pub(super) const INITIAL: &str = "initial";
@@ -78,7 +25,7 @@ type Runs<'a> = BTreeMap<&'a str, Vec<StageMetrics>>;
 
 /// Folders that a figure has to do with.
 #[derive(Clone, Copy, Debug)]
-pub struct Places<'a> {
+pub(super) struct Places<'a> {
     /// That of the target file, which its scenarios are relative to.
     pub base: &'a Path,
     /// That of the files of data; without it they are absent.
@@ -87,63 +34,94 @@ pub struct Places<'a> {
     pub output: &'a Path,
 }
 
-/// Runs the scenarios of `figure` with every seed, analyses its files of data, and compares.
-///
-/// `tell` hears what is being run; `hook` follows each run and may end it.
+/// What a seed of a figure came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct SeedNumbers {
+    /// The number of each target; none where data are absent.
+    pub values: Vec<Option<f64>>,
+    /// Pictures by runs, relative to the output folder; those of the first seed only.
+    pub pictures: Vec<(String, Vec<PathBuf>)>,
+}
+
+/// What follows runs.
+#[derive(Clone, Copy)]
+pub(super) struct Watch<'a> {
+    /// Hears what is being run.
+    pub tell: &'a (dyn Fn(&str) + Sync),
+    /// Whether to end.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Runs the scenarios of `figure` with a seed, and takes its numbers from them and from `data`.
 ///
 /// # Errors
-/// A message: a scenario that is refused or fails, a file that cannot be analysed, or a metric that
-/// they do not have.
-pub fn measure(
+/// A message: a scenario that is refused or fails, or a metric that they do not have.
+pub(super) fn measure(
     figure: &Figure,
+    seed: u64,
     places: Places<'_>,
-    registry: &Arc<Registry>,
-    limits: Limits,
-    tell: &mut dyn FnMut(&str),
-    hook: &mut dyn ProgressHook,
+    (registry, limits): (&Arc<Registry>, Limits),
+    data: &Data<'_>,
+    watch: Watch<'_>,
+) -> Result<SeedNumbers, String> {
+    let mut metrics = Runs::new();
+    let mut pictures_of = Vec::new();
+    for run in &figure.runs {
+        let mut copies = Vec::new();
+        for (index, copy) in run.copies(seed)?.iter().enumerate() {
+            (watch.tell)(&what(run, copy, figure.seeds));
+            let place = (seed == 1 && index == 0).then(|| places.output.join(&run.name));
+            let path = places.base.join(&run.scenario);
+            let report = run_once(&path, copy, place.as_deref(), registry, limits, watch)?;
+            if place.is_some() {
+                pictures_of.push((run.name.clone(), pictures(run, &report)));
+            }
+            copies.push(stages(report));
+        }
+        metrics.insert(&run.name, copies);
+    }
+    for (name, found) in &data.analysed {
+        let metrics_of_file = [(ANALYSIS.to_owned(), found.metrics.clone())];
+        metrics.insert(name, vec![StageMetrics::from(metrics_of_file)]);
+    }
+    let value = |target: &Target| match data.absence(target) {
+        Some(_) => Ok(None),
+        None => quantity(&target.value, &metrics).map(Some),
+    };
+    let values = figure.targets.iter().map(value).collect::<Result<_, _>>()?;
+    Ok(SeedNumbers { values, pictures: pictures_of })
+}
+
+/// Judges the numbers of all seeds of a figure, and puts its pictures together.
+///
+/// # Errors
+/// A message: pictures that cannot be read or written.
+pub(super) fn conclude(
+    figure: &Figure,
+    name: &str,
+    seeds: &[SeedNumbers],
+    data: &Data<'_>,
+    output: &Path,
 ) -> Result<FigureReport, String> {
-    let mut values = vec![Vec::new(); figure.targets.len()];
-    let data = Data::analyze(figure, places, limits, tell)?;
-    let mut drawn = Vec::new();
-    for seed in 1..=figure.seeds {
-        let mut metrics = Runs::new();
-        for run in &figure.runs {
-            let mut copies = Vec::new();
-            for (index, copy) in run.copies(seed)?.iter().enumerate() {
-                tell(&what(run, copy, figure.seeds));
-                let place = (seed == 1 && index == 0).then(|| places.output.join(&run.name));
-                let path = places.base.join(&run.scenario);
-                let report = run_once(&path, copy, place.as_deref(), registry, limits, hook)?;
-                if place.is_some() {
-                    drawn.push((run.name.as_str(), pictures(run, &report)));
-                }
-                copies.push(stages(report));
-            }
-            metrics.insert(&run.name, copies);
-        }
-        for (name, found) in &data.analysed {
-            let metrics_of_file = [(ANALYSIS.to_owned(), found.metrics.clone())];
-            metrics.insert(name, vec![StageMetrics::from(metrics_of_file)]);
-        }
-        for (target, values) in figure.targets.iter().zip(&mut values) {
-            if data.absence(target).is_none() {
-                values.push(quantity(&target.value, &metrics)?);
-            }
-        }
+    let mut drawn: Vec<(&str, Vec<PathBuf>)> = Vec::new();
+    for seed in seeds {
+        drawn.extend(seed.pictures.iter().map(|(run, files)| (run.as_str(), files.clone())));
     }
     drawn.extend(data.analysed.iter().map(|(name, found)| (*name, vec![found.picture.clone()])));
-    let sheet = sheet::write(figure, &drawn, places.output)?;
-    let drawn = drawn.into_iter().flat_map(|(_, pictures)| pictures);
-    let judged = figure.targets.iter().zip(values);
-    let judged =
-        judged.map(|(target, seeds)| judge(target, figure.average, seeds, data.absence(target)));
+    let sheet = sheet::write(figure, &drawn, output)?;
+    let pictures = sheet.into_iter().chain(drawn.into_iter().flat_map(|(_, pictures)| pictures));
+    let judged = figure.targets.iter().enumerate().map(|(index, target)| {
+        let values = seeds.iter().filter_map(|seed| seed.values[index]).collect();
+        judge(target, figure.average, values, data.absence(target))
+    });
     Ok(FigureReport {
+        name: name.to_owned(),
         id: figure.id.clone(),
         title: figure.title.clone(),
         source: figure.source.clone(),
         scenarios: figure.runs.iter().map(|run| run.scenario.clone()).collect(),
         data: data.analysed.iter().map(|(_, found)| found.file.clone()).collect(),
-        pictures: sheet.into_iter().chain(drawn).collect(),
+        pictures: pictures.map(|picture| Path::new(name).join(picture)).collect(),
         targets: judged.collect(),
     })
 }
@@ -188,7 +166,7 @@ fn run_once(
     folder: Option<&Path>,
     registry: &Arc<Registry>,
     limits: Limits,
-    hook: &mut dyn ProgressHook,
+    watch: Watch<'_>,
 ) -> Result<Report, String> {
     let source = copy.open(path)?;
     let mut scenario = source.parse(registry)?;
@@ -202,8 +180,12 @@ fn run_once(
     std::fs::create_dir_all(folder)
         .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     let mut report = Report::default();
+    let mut hook = |_: &Progress<'_>| match (watch.stop)() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
     simulation
-        .run(folder, hook, &mut report)
+        .run(folder, &mut hook, &mut report)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(report)
 }
@@ -229,60 +211,10 @@ fn quantity(quantity: &Quantity, runs: &Runs<'_>) -> Result<f64, String> {
     })
 }
 
-/// Compares the numbers of a target; there are none where data are absent.
-fn judge(
-    target: &Target,
-    average: Average,
-    seeds: Vec<f64>,
-    absence: Option<&str>,
-) -> TargetReport {
-    let value = average.of(&seeds);
-    let outside = seeds.iter().filter(|&&value| target.band.holds(value) == Some(false)).count();
-    let verdict = match value.map(|value| target.band.holds(value)) {
-        None => Verdict::Absent,
-        Some(None) => Verdict::Printed,
-        Some(Some(false)) => Verdict::Missed,
-        Some(Some(true)) if 4 * outside >= seeds.len() => Verdict::Partly,
-        Some(Some(true)) => Verdict::Reproduced,
-    };
-    TargetReport {
-        name: target.name.clone(),
-        value,
-        seeds,
-        thesis: target.thesis,
-        band: target.band.to_string(),
-        verdict,
-        reason: absence.unwrap_or(&target.reason).to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduce::{Band, Over};
-
-    fn verdict(band: Band, seeds: &[f64]) -> (f64, Verdict) {
-        let source = Source { run: String::new(), stage: String::new(), metric: String::new() };
-        let target = Target {
-            name: String::new(),
-            value: Quantity::Metric(source),
-            thesis: None,
-            band,
-            reason: String::new(),
-        };
-        let report = judge(&target, Average::Median, seeds.to_vec(), None);
-        (report.value.unwrap_or(f64::NAN), report.verdict)
-    }
-
-    #[test]
-    fn averages_are_medians_or_means() {
-        let seeds = [5.0, 1.0, 3.0, 2.0, 9.0];
-        assert_eq!(
-            [Average::Median, Average::Mean].map(|of| of.of(&seeds)),
-            [Some(3.0), Some(4.0)]
-        );
-        assert_eq!([Average::Median, Average::Mean].map(|of| of.of(&[])), [None; 2]);
-    }
+    use crate::reproduce::Over;
 
     #[test]
     fn several_runs_have_values_and_seeds_of_their_own() {
@@ -318,16 +250,5 @@ mod tests {
         }
         let none = quantity(&Quantity::Metric(source("c")), &runs);
         assert!(none.is_err_and(|why| why.contains("`c` has no metric `m`")));
-    }
-
-    #[test]
-    fn verdicts_follow_the_median_and_the_seeds() {
-        let seeds = [5.0, 1.0, 3.0, 2.0, 4.0];
-        assert_eq!(verdict(Band::Printed, &seeds), (3.0, Verdict::Printed));
-        assert_eq!(verdict(Band::AtMost(5.0), &seeds), (3.0, Verdict::Reproduced));
-        assert_eq!(verdict(Band::AtMost(4.5), &seeds), (3.0, Verdict::Reproduced));
-        assert_eq!(verdict(Band::AtMost(3.5), &seeds), (3.0, Verdict::Partly));
-        assert_eq!(verdict(Band::AtLeast(3.5), &seeds), (3.0, Verdict::Missed));
-        assert_eq!(verdict(Band::Within(0.0, 9.0), &seeds), (3.0, Verdict::Reproduced));
     }
 }
