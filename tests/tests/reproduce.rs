@@ -112,7 +112,7 @@ fn runs_are_changed_repeated_and_put_together() {
         assert!((value(target) - share * height).abs() < 1e-9, "{target}: {}", value(target));
     }
     let pictures = report["figures"][0]["pictures"].as_array().expect("pictures");
-    let expected = ["figure_0_1.png", "low/p.png", "high/p.png", "many/p.png"];
+    let expected = ["c/figure_0_1.png", "c/low/p.png", "c/high/p.png", "c/many/p.png"];
     assert_eq!(pictures.iter().map(|p| p.as_str().unwrap()).collect::<Vec<_>>(), expected);
     assert!(expected.iter().all(|picture| scratch.path("o").join(picture).is_file()));
     for (from, to, part) in [
@@ -150,6 +150,61 @@ fn other_papers_have_folders_means_and_names_of_their_own() {
     assert!((mean - seeds.iter().sum::<f64>() / 3.0).abs() < 1e-12);
     seeds.sort_by(f64::total_cmp);
     assert_eq!(of_seeds("Median").0, seeds[1]);
+}
+
+/// What is done is kept; the report has the same bits however the work was cut up.
+#[test]
+fn work_that_was_ended_goes_on() {
+    let scratch = Scratch::new("reproduce_resume");
+    let read = |file: &str| fs::read_to_string(scratch.path(file)).expect("a file");
+    reproduce(&scratch, TARGETS, "--jobs 1").good();
+    let whole = ["report.json", "report.html"].map(|name| read(&format!("o/{name}")));
+    let again = |line: &str| {
+        let line = format!("reproduce t.targets.ron -o p {line}");
+        Program::within(scratch.folder()).line(&line).run()
+    };
+    // Two of three seeds, as if it had been ended before the last.
+    again("--seeds 2").good();
+    let ended = again("--resume --jobs 2");
+    assert!(ended.stderr.contains("1/1 table 0.1: small, seed 3 of 3"), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("seed 1 of"), "{}", ended.stderr);
+    ended.good();
+    assert_eq!(whole, ["report.json", "report.html"].map(|name| read(&format!("p/{name}"))));
+    // A text that has changed is run again, and a record that is none is named.
+    let changed = format!("{SMALL}\n// another text\n");
+    scratch.write("small.ron", changed);
+    let ended = again("--resume");
+    assert!(ended.stderr.contains("1/3 table 0.1: small, seed 1 of 3"), "{}", ended.stderr);
+    ended.good();
+    scratch.write("p/done.json", "[]");
+    assert!(again("--resume").refused().contains("done.json"));
+    assert!(again("").refused().contains("not empty"));
+}
+
+/// All target files of a chapter of the thesis, in its order, and one page of all.
+#[test]
+fn a_chapter_is_reproduced_as_one() {
+    let scratch = Scratch::new("reproduce_chapter");
+    fs::create_dir_all(scratch.path("scenarios/thesis")).expect("folders");
+    scratch.write("scenarios/thesis/small.ron", SMALL);
+    for (file, id) in [("fig_3_10", "figure 3.10"), ("fig_3_2", "figure 3.2"), ("fig_b_1", "B")] {
+        let targets = TARGETS.replace("table 0.1", id).replace("small dunes", "dunes < hills");
+        scratch.write(&format!("scenarios/thesis/{file}.targets.ron"), targets);
+    }
+    let run = |line: &str| Program::within(scratch.folder()).line("reproduce").line(line).run();
+    let told = run("--chapter 3 --quick -o o").good();
+    let [second, tenth] = ["figure 3.2", "figure 3.10"].map(|id| told.find(id).expect(id));
+    assert!(second < tenth && !told.contains("B:"), "{told}");
+    let page = fs::read_to_string(scratch.path("o/report.html")).expect("a page");
+    for part in ["figure 3.2: dunes &lt; hills", "data:image/png;base64,iVBOR", "missed 2"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("http"), "needs nothing else");
+    assert!(run("--all --quick -o all").good().contains("B: dunes"));
+    assert!(run("--chapter 7 -o none").refused().contains("no target files of chapter 7"));
+    for line in ["", "--quick --seeds 2 fig_3_2", "--jobs 0 fig_3_2", "--all --chapter 3"] {
+        assert_eq!(run(line).status, Some(2), "{line}");
+    }
 }
 
 const DATA: &str = r#"(
@@ -217,8 +272,8 @@ fn data_are_brought_by_the_user_or_absent() {
     let figure = report("with");
     assert_eq!(verdicts(&figure), ["reproduced", "printed", "absent"]);
     assert_eq!(figure["data"], Value::from(vec!["data/hills.tif"]));
-    assert_eq!(figure["pictures"], Value::from(vec!["figure_0_2.png", "hills/analysis.png"]));
-    assert!(scratch.path("with/hills/analysis.png").is_file());
+    assert_eq!(figure["pictures"], Value::from(vec!["d/figure_0_2.png", "d/hills/analysis.png"]));
+    assert!(scratch.path("with/d/hills/analysis.png").is_file());
     // The same number as `landform analyze` gives.
     let analysis = Program::within(scratch.folder()).line("analyze --json data/hills.tif").run();
     let analysis: Value = serde_json::from_str(&analysis.good()).expect("JSON");

@@ -51,8 +51,11 @@ pub fn protochannels(
         let porosity = porosity[from].min(porosity[edge.node]);
         edge.distance / lattice.spacing() / porosity.clamp(1.0 / UNITS, 1.0)
     };
+    let is_seed = |node: usize| seeds.iter().any(|seed| seed.node == node);
+    // What flows between voxels of a source does not leave it.
     let leaving = |node: usize| -> u64 {
-        lattice.neighbours(node).map(|edge| u64::from(capacity(node, &edge))).sum()
+        let out = lattice.neighbours(node).filter(|edge| !is_seed(edge.node));
+        out.map(|edge| u64::from(capacity(node, &edge))).sum()
     };
     let sources: Vec<Terminal> =
         seeds.iter().map(|seed| Terminal { node: seed.node, most: leaving(seed.node) }).collect();
@@ -69,10 +72,9 @@ pub fn protochannels(
     let reached: Vec<usize> = reached.map(|(sink, _)| sink.node).collect();
     let mut channels = vec![0; lattice.node_count()];
     let mut walk = Walk { lattice, flow: &mut largest.flow, walk_of: vec![0; channels.len()] };
-    let is_source = |node: usize| seeds.iter().any(|seed| seed.node == node);
     let mut paths = Vec::with_capacity(reached.len());
     for (number, &sink) in reached.iter().enumerate() {
-        let path = walk.upstream(sink, number as u32 + 1, is_source);
+        let path = walk.upstream(sink, number as u32 + 1, is_seed);
         path.iter().for_each(|&node| channels[node] += 1);
         paths.push(path);
     }

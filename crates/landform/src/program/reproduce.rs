@@ -91,9 +91,8 @@ fn entries(
     }
     let mut entries: Vec<Entry> = Vec::with_capacity(paths.len());
     for path in paths {
-        let mut entry = Entry::read(&path, registry, limits)?;
         let seeds = if arguments.quick { Some(1) } else { arguments.seeds };
-        entry.figure.seeds = seeds.unwrap_or(entry.figure.seeds).max(1);
+        let entry = Entry::read(&path, seeds, registry, limits)?;
         if let Some(other) = entries.iter().find(|other| other.name == entry.name) {
             let (name, base) = (&entry.name, other.base.display());
             return Err(format!("two target files are called {name}, the first in {base}"));
