@@ -4,8 +4,13 @@
 //!   iteration and voxel, against copying porosity and pressure;
 //! - `pressure, all`: from scratch in 64x64x64 (128x128x128) voxels, a voxel, against Dijkstra's
 //!   algorithm as a front with a heap;
+//! - `pressure, 20 opened`: an avalanche from twenty voxels that become a channel, in 128x128x128 (with
+//!   `--full` 256x256x256) voxels against the same in 64x64x64, with a reach of 20 voxels: the cost is
+//!   that of what it reaches, whatever the size of the block;
 //! - `protochannels`: the largest flow to 60 protosinks in 60x60x20 voxels, a voxel, against the same
-//!   copy.
+//!   copy;
+//! - `largest flow`: from a voxel in the middle of 128x128x128 to 60 on its borders, a voxel, with as
+//!   few edges as possible, against a front by buckets over the same voxels.
 
 mod measure;
 
@@ -15,8 +20,9 @@ use landform::caves::erosion::Dissolution;
 use landform::caves::growth::{ChannelGrowth, GrowthLaw, Motion, Openings};
 use landform::caves::pressure::{Avalanches, Rates};
 use landform::caves::stage_one::{Seed, pressure_zones, protochannels, protosinks};
-use landform::graph::marching::Front;
-use landform::graph::{Boundary, Connectivity, Lattice};
+use landform::graph::marching::{Front, Relaxation};
+use landform::graph::max_flow::{Terminal, maximum_flow};
+use landform::graph::{Boundary, Connectivity, Edge, Lattice};
 use landform::sim::random::RandomStream;
 use landform::synth::{Generator, SmoothNoise};
 use measure::{Effort, pairs, table};
@@ -33,6 +39,9 @@ fn main() {
             Effort::Full => &[64, 128, 256],
         };
         sides.iter().for_each(|&side| pressure(effort, side));
+        let larger = if effort == Effort::Full { 256 } else { 128 };
+        avalanche(effort, larger);
+        largest_flow(effort, if effort == Effort::Quick { 64 } else { 128 });
     });
 }
 
@@ -138,4 +147,84 @@ fn pressure(effort: Effort, side: usize) {
     };
     let name = format!("pressure, all, {side}^3, a voxel");
     pairs(effort.rounds(5), buckets, heap).print(&name, "a front with a heap", "160 ns");
+}
+
+/// A block whose pressure is settled, and a channel that opens in its middle.
+struct Opening {
+    lattice: Lattice,
+    avalanches: Avalanches,
+    pressure: Vec<f64>,
+    before: Vec<f64>,
+    opened: Vec<usize>,
+}
+
+impl Opening {
+    fn new(side: usize) -> Self {
+        let lattice = block([side; 3]);
+        let opened: Vec<usize> =
+            (0..20).map(|x| lattice.node([side / 2 - 10 + x, side / 2, side / 2])).collect();
+        // The end of the channel drains; what is farther than the reach stays at the pressure of rock.
+        let mut before = vec![20.0 * RATES.rock_per_m; lattice.node_count()];
+        before[opened[0]] = 0.0;
+        let mut avalanches = Avalanches::new();
+        let settled = avalanches.settle(&lattice, &mut before, RATES, |_| false);
+        settled.expect("pressure");
+        Self { lattice, avalanches, pressure: before.clone(), before, opened }
+    }
+
+    /// Opens the channel and puts everything around it back; returns how many voxels that were.
+    fn run(&mut self) -> usize {
+        let Self { lattice, avalanches, pressure, before, opened } = self;
+        let (first, last) = (opened[0], opened[opened.len() - 1]);
+        let channel = |node: usize| (first..=last).contains(&node);
+        let followed = avalanches.follow(lattice, pressure, RATES, channel, opened);
+        black_box(followed.expect("pressure"));
+        let [x, y, z] = lattice.coordinates(first);
+        for (z, y) in (z - 22..z + 22).flat_map(|z| (y - 22..y + 22).map(move |y| (z, y))) {
+            let row = lattice.node([x - 22, y, z])..lattice.node([x + 41, y, z]);
+            pressure[row.clone()].copy_from_slice(&before[row]);
+        }
+        44 * 44 * 63
+    }
+}
+
+fn avalanche(effort: Effort, side: usize) {
+    let [mut small, mut large] = [64, side].map(Opening::new);
+    let pair = pairs(effort.rounds(15), || large.run(), || small.run());
+    assert!(small.pressure == small.before && large.pressure == large.before, "all put back");
+    let name = format!("pressure, 20 opened, {side}^3, a voxel in reach");
+    pair.print(&name, "the same, 64^3", "ratio 1");
+}
+
+fn largest_flow(effort: Effort, side: usize) {
+    let lattice = block([side; 3]);
+    let random = RandomStream::new(1, "rock and sinks");
+    let units: Vec<u32> =
+        (0..lattice.node_count()).map(|node| 20 + random.block(0, node, 0)[0] % 100).collect();
+    let capacity = |from: usize, edge: &Edge| units[from].min(units[edge.node]);
+    let middle = lattice.node([side / 2; 3]);
+    let source = Terminal { node: middle, most: u64::MAX };
+    // On all six sides, ten each.
+    let sink = |number: usize| {
+        let draw = |index: u32| random.block(1, number, index)[0] as usize % side;
+        let mut at = [draw(0), draw(1), draw(2)];
+        at[number % 3] = if number % 6 < 3 { 0 } else { side - 1 };
+        Terminal { node: lattice.node(at), most: u64::from(u32::MAX) }
+    };
+    let sinks: Vec<Terminal> = (0..60).map(sink).collect();
+    let flow = || {
+        let flow = maximum_flow(&lattice, capacity, |_, _| 1.0, &[source], &sinks);
+        black_box(flow.expect("a flow"));
+        units.len()
+    };
+    let mut relaxation = Relaxation::new();
+    let front = || {
+        let mut values = vec![f64::INFINITY; units.len()];
+        values[middle] = 0.0;
+        let relaxed = relaxation.relax(&lattice, &mut values, &[middle], 2.0, |_, _| 1.0);
+        black_box(relaxed.expect("a front"));
+        units.len()
+    };
+    let name = format!("largest flow, {side}^3 to 60 voxels, a voxel");
+    pairs(effort.rounds(5), flow, front).print(&name, "a front by buckets", "320 ns");
 }

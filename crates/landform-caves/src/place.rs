@@ -90,7 +90,12 @@ pub fn separation(lattice: &Lattice, a: usize, b: usize) -> f64 {
 /// periodic axes.
 #[inline]
 pub fn displacement(lattice: &Lattice, a: usize, b: usize) -> DVec3 {
-    let (from, to) = (lattice.coordinates(a), lattice.coordinates(b));
+    between(lattice, lattice.coordinates(a), lattice.coordinates(b))
+}
+
+/// [`displacement`] between voxels of these coordinates.
+#[inline]
+pub(crate) fn between(lattice: &Lattice, from: [usize; 3], to: [usize; 3]) -> DVec3 {
     let along = |axis: usize| {
         let steps = to[axis] as f64 - from[axis] as f64;
         let size = lattice.size()[axis] as f64;

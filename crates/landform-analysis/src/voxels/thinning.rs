@@ -207,13 +207,7 @@ impl Peel {
 }
 
 /// Bits of the voxels of a framed row that are open to a side, with what the rule wants behind them.
-fn open_to(
-    set: &VoxelSet,
-    place: [usize; 2],
-    side: usize,
-    rule: Rule,
-    bits: &mut Vec<u64>,
-) {
+fn open_to(set: &VoxelSet, place: [usize; 2], side: usize, rule: Rule, bits: &mut Vec<u64>) {
     let here = set.row(place);
     bits.clear();
     bits.extend((0..here.len()).map(|word| {

@@ -7,6 +7,7 @@
 
 mod channels;
 mod protosinks;
+mod straight;
 mod zones;
 
 pub use channels::{Network, protochannels};

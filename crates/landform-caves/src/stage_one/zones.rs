@@ -7,6 +7,8 @@ use crate::CaveError;
 use crate::error::check_range;
 use crate::place::separation;
 
+use super::straight::straight_zones;
+
 /// Owner of voxels that no source claims.
 pub const NO_SOURCE: u32 = u32::MAX;
 
@@ -37,6 +39,9 @@ pub struct Zones {
 /// `open` tells which voxels water may enter; zones go round the others, distances are straight. Zones
 /// of two sources meet on the sphere of Apollonius, of which the weaker source is inside.
 ///
+/// Cost: without rock to go round, that of looking at every seed from every voxel, if there are few
+/// seeds; that of a front elsewhere.
+///
 /// # Errors
 /// [`CaveError::NoSource`] without seeds; [`CaveError::OutOfRange`] for a pressure that is not
 /// positive; [`CaveError::March`] for a seed outside the lattice.
@@ -46,6 +51,19 @@ pub fn pressure_zones(
     seeds: &[Seed],
 ) -> Result<Zones, CaveError> {
     let max_pressure = largest_pressure(seeds)?;
+    if let Some(zones) = straight_zones(lattice, &open, seeds, max_pressure) {
+        return Ok(zones);
+    }
+    zones_by_front(lattice, open, seeds, max_pressure)
+}
+
+/// The zones as listing 5.1 has them.
+fn zones_by_front(
+    lattice: &Lattice,
+    open: impl Fn(usize) -> bool,
+    seeds: &[Seed],
+    max_pressure: f64,
+) -> Result<Zones, CaveError> {
     let nodes = lattice.node_count();
     // Number of the seed of each voxel.
     let mut nearest = vec![u32::MAX; nodes];
@@ -83,6 +101,7 @@ fn largest_pressure(seeds: &[Seed]) -> Result<f64, CaveError> {
 mod tests {
     use super::*;
     use landform_graph::{Boundary, Connectivity};
+    use landform_sim::random::RandomStream;
     use proptest::prelude::*;
 
     /// Least weighted distance by looking at every seed from every voxel.
@@ -111,6 +130,9 @@ mod tests {
             };
             let seeds: Vec<Seed> = places.into_iter().enumerate().map(seed).collect();
             let zones = pressure_zones(&lattice, |_| true, &seeds).unwrap();
+            let by_front =
+                zones_by_front(&lattice, |_| true, &seeds, largest_pressure(&seeds).unwrap());
+            prop_assert_eq!(by_front.as_ref(), Ok(&zones));
             let least = least_distances(&lattice, &seeds);
             let mut differ = 0;
             for (node, least) in least.into_iter().enumerate() {
@@ -122,6 +144,33 @@ mod tests {
             }
             prop_assert!(differ <= 24, "{differ} voxels");
         }
+    }
+
+    /// Looking at every seed gives what the front gives, bit for bit, or nothing.
+    #[test]
+    fn straight_zones_are_those_of_the_front() {
+        let lattice = block([24, 18, 11]);
+        let random = RandomStream::new(3, "zones");
+        let mut given = 0;
+        for round in 0..60 {
+            let draw = |index: u32| random.unit(round, 0, index);
+            let wall = 0.4 * draw(0);
+            let open = |node: usize| random.unit(round, node, 9) > wall * draw(1);
+            let seed = |number: u32| {
+                let node = (draw(10 + number) * 2370.0) as usize;
+                // Two neighbours belong to one source.
+                let pressure = if number < 2 { 1.0 } else { 0.5 + draw(20 + number) };
+                Seed { node, source: number.max(1), pressure }
+            };
+            let mut seeds: Vec<Seed> = (0..4).map(seed).collect();
+            seeds[1].node = seeds[0].node + 1;
+            let most = largest_pressure(&seeds).unwrap();
+            if let Some(zones) = straight_zones(&lattice, &open, &seeds, most) {
+                given += 1;
+                assert_eq!(Ok(zones), zones_by_front(&lattice, open, &seeds, most), "{round}");
+            }
+        }
+        assert!((20..60).contains(&given), "{given} of 60");
     }
 
     /// Figure 5.3: the zone of the weaker of two sources is the disc of Apollonius.

@@ -1,16 +1,18 @@
 //! The search for paths and the flow along them.
 
+use std::cell::Cell;
+
+use super::residual::Residual;
 use super::{FlowError, Terminal};
 use crate::marching::Relaxation;
 use crate::{Edge, Lattice};
 
 /// A flow on its way to the maximum.
-pub(super) struct Dinic<'a, C> {
+pub(super) struct Dinic<'a, K, C> {
     lattice: &'a Lattice,
+    residual: Residual<'a, K>,
     /// What edges cost, and the width of the buckets in which nodes are ranked.
     cost: (C, f64),
-    /// Capacity that directed edges have left, by slot.
-    residual: Vec<i32>,
     /// Cost from the nearest source that has flow left; infinite where none reaches.
     rank: Vec<f64>,
     /// First direction of each node that the phase has not found useless.
@@ -27,19 +29,15 @@ pub(super) struct Dinic<'a, C> {
 
 /// An edge of a path.
 struct Step {
-    /// The node that it enters.
-    node: usize,
-    /// Its slot.
-    slot: usize,
-    /// Slot of its reverse.
-    reverse: usize,
+    /// The node that it leaves.
+    from: usize,
+    edge: Edge,
 }
 
-impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
+impl<'a, K: Fn(usize, &Edge) -> u32, C: Fn(usize, &Edge) -> f64> Dinic<'a, K, C> {
     pub(super) fn new(
         lattice: &'a Lattice,
-        residual: Vec<i32>,
-        cost: (C, f64),
+        (capacity, cost): (K, C),
         sources: &[Terminal],
         sinks: &[Terminal],
     ) -> Self {
@@ -49,10 +47,11 @@ impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
         let mut supply = amounts(sources);
         supply.sort_unstable();
         let nodes = lattice.node_count();
+        let width = bucket_width(lattice, &capacity, &cost);
         Self {
             lattice,
-            cost,
-            residual,
+            residual: Residual::new(lattice, capacity),
+            cost: (cost, width),
             rank: vec![f64::INFINITY; nodes],
             next: vec![0; nodes],
             relaxation: Relaxation::new(),
@@ -81,27 +80,34 @@ impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
         Ok(())
     }
 
-    /// Capacity left by slot, and what the sinks still want.
+    /// Flow by slot, and what the sinks still want.
     pub(super) fn finish(self) -> (Vec<i32>, Vec<u64>) {
-        (self.residual, self.demand.into_iter().map(|(_, wanted)| wanted).collect())
+        let wanted = self.demand.into_iter().map(|(_, wanted)| wanted).collect();
+        (self.residual.into_flow(), wanted)
     }
 
     /// Ranks all nodes that more can flow to; false if no sink that wants flow is among them.
     fn rank_nodes(&mut self) -> Result<bool, FlowError> {
-        let Self { lattice, cost: (cost, width), residual, rank, starts, .. } = self;
+        let Self { lattice, residual, cost: (cost, width), rank, starts, .. } = self;
         rank.fill(f64::INFINITY);
         starts.clear();
         starts.extend(self.supply.iter().filter(|(_, left)| *left > 0).map(|&(node, _)| node));
         starts.iter().for_each(|&node| rank[node] = 0.0);
-        let directions = lattice.directions();
-        let open_cost = |from: usize, edge: &Edge| match residual
-            [from * directions + usize::from(edge.direction)]
-            > 0
-        {
-            true => cost(from, edge),
-            false => f64::INFINITY,
+        let refused = Cell::new(None);
+        let open_cost = |from: usize, edge: &Edge| {
+            if residual.left(from, edge) == 0 {
+                return f64::INFINITY;
+            }
+            let cost = cost(from, edge);
+            if !(cost > 0.0 && cost.is_finite()) {
+                refused.set(Some(FlowError::Cost { from, to: edge.node, cost }));
+                return f64::INFINITY;
+            }
+            cost
         };
         self.relaxation.relax(lattice, rank, starts, *width, open_cost)?;
+        residual.check()?;
+        refused.take().map_or(Ok(()), Err)?;
         self.next.fill(0);
         let wanting = self.demand.iter().filter(|(_, wanted)| *wanted > 0);
         Ok(wanting.into_iter().any(|&(node, _)| self.rank[node].is_finite()))
@@ -116,32 +122,32 @@ impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
             if self.rank[node] == 0.0 && self.send(node, sink) {
                 self.path.clear();
                 node = end;
-            } else if let Some(edge) = self.feeder(node) {
-                let reverse = self.lattice.slot(node, &edge);
-                self.path.push(Step { node, slot: self.lattice.reverse_slot(&edge), reverse });
-                node = edge.node;
+            } else if let Some(step) = self.feeder(node) {
+                node = step.from;
+                self.path.push(step);
             } else if let Some(step) = self.path.pop() {
                 // A dead end.
-                self.next[step.node] += 1;
-                node = step.node;
+                node = step.edge.node;
+                self.next[node] += 1;
             } else {
                 return;
             }
         }
     }
 
-    /// The edge to a neighbour on the cheapest way from a source, from which more can flow to this node.
-    fn feeder(&mut self, node: usize) -> Option<Edge> {
+    /// The edge from a neighbour on the cheapest way from a source, over which more can flow to this
+    /// node.
+    fn feeder(&mut self, node: usize) -> Option<Step> {
         let rank = self.rank[node];
         while rank > 0.0 && usize::from(self.next[node]) < self.lattice.directions() {
-            if let Some(edge) = self.lattice.edge(node, self.next[node])
-                && self.residual[self.lattice.reverse_slot(&edge)] > 0
-                && let Some(back) = self.lattice.edge(edge.node, self.lattice.opposite(edge.direction))
+            if let Some(back) = self.lattice.edge(node, self.next[node])
+                && self.rank[back.node] < rank
+                && let Some(edge) = self.lattice.edge(back.node, self.lattice.opposite(back.direction))
+                && self.residual.left(back.node, &edge) > 0
                 // The rank is the least of these sums, so one of them is it to the last bit.
-                && self.rank[edge.node] < rank
-                && self.rank[edge.node] + (self.cost.0)(edge.node, &back) == rank
+                && self.rank[back.node] + (self.cost.0)(back.node, &edge) == rank
             {
-                return Some(edge);
+                return Some(Step { from: back.node, edge });
             }
             self.next[node] += 1;
         }
@@ -153,16 +159,37 @@ impl<'a, C: Fn(usize, &Edge) -> f64> Dinic<'a, C> {
         let Ok(source) = self.supply.binary_search_by_key(&node, |supply| supply.0) else {
             return false;
         };
-        let carried = self.path.iter().map(|step| self.residual[step.slot] as u64).min();
+        let left = |step: &Step| self.residual.left(step.from, &step.edge);
+        let carried = self.path.iter().map(left).min().unwrap_or(0);
         let most = self.supply[source].1.min(self.demand[sink].1);
-        let amount = carried.unwrap_or(0).min(most);
+        let amount = most.min(u64::from(carried));
         self.supply[source].1 -= amount;
         self.demand[sink].1 -= amount;
         for step in &self.path {
-            // At most a capacity, which fits.
-            self.residual[step.slot] -= amount as i32;
-            self.residual[step.reverse] += amount as i32;
+            // At most what an edge has left, which fits.
+            self.residual.add(step.from, &step.edge, amount as u32);
         }
         amount > 0
     }
+}
+
+/// About twice the mean cost of the edges with a capacity, by those of a thousand nodes: the width of
+/// buckets that makes ranking fast, and changes nothing else.
+fn bucket_width(
+    lattice: &Lattice,
+    capacity: &impl Fn(usize, &Edge) -> u32,
+    cost: &impl Fn(usize, &Edge) -> f64,
+) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for from in (0..lattice.node_count()).step_by(lattice.node_count().div_ceil(1000)) {
+        for edge in lattice.neighbours(from).filter(|edge| capacity(from, edge) > 0) {
+            let cost = cost(from, &edge);
+            if cost > 0.0 && cost.is_finite() {
+                sum += cost;
+                count += 1.0;
+            }
+        }
+    }
+    let width = 2.0 * (sum / count);
+    if width > 0.0 && width.is_finite() { width } else { 1.0 }
 }

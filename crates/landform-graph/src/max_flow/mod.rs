@@ -1,8 +1,9 @@
 //! Maximum flow between nodes of a lattice (thesis, section 5.2.1: flow through porous rock).
 //!
 //! [`maximum_flow`] finds how much can flow from sources to sinks when every edge carries at most
-//! its capacity, and a flow that does. The graph is the lattice itself, whose edges are computed:
-//! only the flow on them is stored, four bytes a slot ([`Lattice::slot`]).
+//! its capacity, and a flow that does. The graph is the lattice itself: its edges and their capacities
+//! are computed, only the flow on them is stored, four bytes a slot ([`Lattice::slot`]), of which
+//! slots without flow take no memory where the system hands out pages when they are first written.
 //!
 //! Scheme: Dinic (1970), with distances that may be costs. Nodes are ranked by the cost of the
 //! cheapest way from a source over edges with capacity left; then every sink that still wants flow
@@ -20,6 +21,7 @@
 mod dinic;
 #[cfg(test)]
 mod reference;
+mod residual;
 #[cfg(test)]
 mod tests;
 
@@ -102,10 +104,9 @@ pub enum FlowError {
 
 /// The largest flow from `sources` to `sinks` over edges of a capacity each.
 ///
-/// `capacity(from, edge)` is what may flow from `from` over the edge; it is asked twice for each
-/// directed edge and must answer the same. `cost(from, edge)` is what the way over the edge costs, more
-/// than 0; only edges with a capacity, or with one on their reverse, are asked about. Flow may pass
-/// through sources and sinks.
+/// `capacity(from, edge)` is what may flow from `from` over the edge; it is asked again and again and
+/// must answer the same. `cost(from, edge)` is what the way over the edge costs, more than 0. What lies
+/// where no flow can come to is not asked about. Flow may pass through sources and sinks.
 ///
 /// ```
 /// use landform_graph::max_flow::{Terminal, maximum_flow};
@@ -130,17 +131,9 @@ pub fn maximum_flow(
     sinks: &[Terminal],
 ) -> Result<MaximumFlow, FlowError> {
     check_terminals(lattice, sources, sinks)?;
-    let residual = capacities(lattice, &capacity)?;
-    let width = bucket_width(lattice, &residual, &cost)?;
-    let mut dinic = Dinic::new(lattice, residual, (cost, width), sources, sinks);
+    let mut dinic = Dinic::new(lattice, (capacity, cost), sources, sinks);
     dinic.solve()?;
-    let (mut flow, wanted) = dinic.finish();
-    for node in 0..lattice.node_count() {
-        for edge in lattice.neighbours(node) {
-            let slot = lattice.slot(node, &edge);
-            flow[slot] = capacity(node, &edge) as i32 - flow[slot];
-        }
-    }
+    let (flow, wanted) = dinic.finish();
     let taken: Vec<u64> = sinks.iter().zip(wanted).map(|(sink, left)| sink.most - left).collect();
     Ok(MaximumFlow { value: taken.iter().sum(), taken, flow })
 }
@@ -160,45 +153,4 @@ fn check_terminals(
         Some(pair) => Err(FlowError::Twice { node: pair[0] }),
         None => Ok(()),
     }
-}
-
-/// The capacity of every directed edge by slot; 0 for slots without an edge.
-fn capacities(
-    lattice: &Lattice,
-    capacity: &impl Fn(usize, &Edge) -> u32,
-) -> Result<Vec<i32>, FlowError> {
-    let mut capacities = vec![0; lattice.slots()];
-    for from in 0..lattice.node_count() {
-        for edge in lattice.neighbours(from) {
-            let capacity = capacity(from, &edge);
-            if capacity > MOST_CAPACITY {
-                return Err(FlowError::Capacity { from, to: edge.node, capacity });
-            }
-            capacities[lattice.slot(from, &edge)] = capacity as i32;
-        }
-    }
-    Ok(capacities)
-}
-
-/// Twice the mean cost of the edges with a capacity: the width of buckets that makes ranking fast.
-fn bucket_width(
-    lattice: &Lattice,
-    capacities: &[i32],
-    cost: &impl Fn(usize, &Edge) -> f64,
-) -> Result<f64, FlowError> {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for from in 0..lattice.node_count() {
-        for edge in lattice.neighbours(from) {
-            let open = |slot: usize| capacities[slot] > 0;
-            if open(lattice.slot(from, &edge)) || open(lattice.reverse_slot(&edge)) {
-                let cost = cost(from, &edge);
-                if !(cost > 0.0 && cost.is_finite()) {
-                    return Err(FlowError::Cost { from, to: edge.node, cost });
-                }
-                sum += cost;
-                count += 1.0;
-            }
-        }
-    }
-    Ok(if count > 0.0 { 2.0 * sum / count } else { 1.0 })
 }
