@@ -20,6 +20,7 @@ use landform::caves::erosion::Dissolution;
 use landform::caves::growth::{ChannelGrowth, GrowthLaw, Motion, Openings};
 use landform::caves::pressure::{Avalanches, Rates};
 use landform::caves::stage_one::{Seed, pressure_zones, protochannels, protosinks};
+use landform::caves::water::PoreWater;
 use landform::graph::marching::{Front, Relaxation};
 use landform::graph::max_flow::{Terminal, maximum_flow};
 use landform::graph::{Boundary, Connectivity, Edge, Lattice};
@@ -79,14 +80,15 @@ fn growth(effort: Effort) {
         contributed_fraction: 0.1,
     };
     let law = GrowthLaw { motion, dissolution, passage: 0.35, sweeps: 1 };
-    let dry = vec![0.0; porosity.len()];
     let run = || {
         let mut porosity = porosity.clone();
-        let cave = ChannelGrowth::new(&lattice, law, openings.clone(), &porosity, &dry);
+        let mut water = PoreWater::dry(porosity.len());
+        let cave = ChannelGrowth::new(&lattice, law, openings.clone(), &porosity);
         let mut cave = cave.expect("a cave");
         let mut pressure = cave.first_pressure(&lattice, &porosity).expect("pressure");
         for _ in 0..ITERATIONS {
-            black_box(cave.step(&lattice, &mut porosity, &mut pressure).expect("a step"));
+            let moved = cave.step(&lattice, &mut water, &mut porosity, &mut pressure);
+            black_box(moved.expect("a step"));
         }
         ITERATIONS * porosity.len()
     };

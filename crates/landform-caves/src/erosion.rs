@@ -4,6 +4,7 @@ use landform_graph::Lattice;
 
 use crate::CaveError;
 use crate::error::check_range;
+use crate::sparse::Sparse;
 use crate::water::{PoreWater, Rule, UNIT};
 
 /// How flow dissolves rock.
@@ -38,11 +39,18 @@ pub struct Dissolved {
     pub volume: f64,
 }
 
-/// Memory for [`Dissolution::dissolve`]; 8 bytes a voxel.
-#[derive(Clone, Debug, Default)]
+/// Memory for [`Dissolution::dissolve`]: 8 bytes a voxel of the pages that water comes near.
+#[derive(Clone, Debug)]
 pub struct Contributions {
     /// Units contributed to each voxel: whole numbers, whose sums no order can change.
-    units: Vec<f64>,
+    units: Sparse<f64>,
+}
+
+impl Contributions {
+    /// Memory for so many voxels.
+    pub fn new(voxels: usize) -> Self {
+        Self { units: Sparse::new(voxels) }
+    }
 }
 
 impl Dissolution {
@@ -57,7 +65,7 @@ impl Dissolution {
         check_range("contributed_fraction", self.contributed_fraction, [0.0, 1.0])
     }
 
-    /// Lets the water that flowed in this iteration dissolve rock: `porosity` grows, and `water` gets
+    /// Lets the water that flowed in this iteration dissolve rock: `porosity` grows, which gives water
     /// more room. Voxels whose porosity comes to `passage` open.
     pub fn dissolve(
         &self,
@@ -67,7 +75,6 @@ impl Dissolution {
         (porosity, passage): (&mut [f64], f64),
         memory: &mut Contributions,
     ) -> Dissolved {
-        memory.units.resize(lattice.node_count(), 0.0);
         let mut changed: Vec<usize> = water.flowed().iter().map(|&node| node as usize).collect();
         let flowed = changed.len();
         for at in 0..flowed {
@@ -76,23 +83,24 @@ impl Dissolution {
             for edge in lattice.neighbours(node) {
                 let beside = edge.node;
                 if porosity[beside] > 0.0 && rule.leads(lattice, beside, node) {
-                    if memory.units[beside] == 0.0 && water.received(beside) == 0 {
+                    let contributed = memory.units.get_mut(beside);
+                    if *contributed == 0.0 && water.received(beside) == 0 {
                         changed.push(beside);
                     }
-                    memory.units[beside] += units;
+                    *contributed += units;
                 }
             }
         }
         changed.sort();
         let mut dissolved = Dissolved::default();
         for &node in &changed {
-            let contributed = std::mem::take(&mut memory.units[node]) * self.contributed_fraction;
+            let contributed =
+                std::mem::take(memory.units.get_mut(node)) * self.contributed_fraction;
             let flow = f64::from(water.received(node)) / UNIT;
             let growth = self.growth(flow, contributed / UNIT, porosity[node]);
             let before = porosity[node];
             porosity[node] = (before + growth).min(1.0);
             dissolved.volume += porosity[node] - before;
-            water.widen(node, porosity[node]);
             if before < passage && porosity[node] >= passage {
                 dissolved.opened.push(node);
             }
@@ -122,8 +130,10 @@ mod tests {
         let pressure = [3.0, 2.0, 1.0, 0.0];
         let rule = DownPressure { pressure: &pressure, exponent: 1 };
         let mut porosity = [0.5, 0.25, 0.5, 0.0];
-        let mut water = PoreWater::new(&lattice, &porosity, &[0.5, 0.0, 0.0, 0.0]).unwrap();
-        water.sweep(&lattice, &rule);
+        let mut water = PoreWater::dry(4);
+        water.feed(&porosity, 0, 0.5);
+        water.begin_iteration();
+        water.sweep(&lattice, &rule, &porosity);
         assert_eq!(water.received(1), (0.25 * UNIT) as u32);
         let law = Dissolution {
             rate: 0.2,
@@ -131,7 +141,7 @@ mod tests {
             exponent: 2.0,
             contributed_fraction: 0.1,
         };
-        let mut memory = Contributions::default();
+        let mut memory = Contributions::new(4);
         let dissolved =
             law.dissolve(&lattice, &mut water, &rule, (&mut porosity, 0.26), &mut memory);
         // Voxel 1 received 0.25; voxel 0, which leads to it, gets a tenth of that contributed.
@@ -141,8 +151,8 @@ mod tests {
         assert_eq!(porosity[2..], [0.5, 0.0]);
         assert!((dissolved.volume - grown[0] - grown[1]).abs() < 1e-15);
         assert_eq!((dissolved.opened, dissolved.changed), (vec![1], vec![0, 1]));
-        assert!(water.room(1) > 0);
-        assert!(memory.units.iter().all(|units| *units == 0.0));
+        assert!(water.in_rock(&porosity).room(1) > 0);
+        assert!((0..4).all(|node| memory.units.get(node) == 0.0));
     }
 
     #[test]
@@ -151,15 +161,17 @@ mod tests {
         let pressure = [1.0, 0.0, 2.0];
         let rule = DownPressure { pressure: &pressure, exponent: 1 };
         let mut porosity = [0.9, 0.9, 0.0];
-        let mut water = PoreWater::new(&lattice, &porosity, &[0.9, 0.0, 0.0]).unwrap();
-        water.sweep(&lattice, &rule);
+        let mut water = PoreWater::dry(3);
+        water.feed(&porosity, 0, 0.9);
+        water.begin_iteration();
+        water.sweep(&lattice, &rule, &porosity);
         let law = Dissolution {
             rate: 5.0,
             contributed_weight: 1.0,
             exponent: 1.0,
             contributed_fraction: 1.0,
         };
-        let mut memory = Contributions::default();
+        let mut memory = Contributions::new(3);
         law.dissolve(&lattice, &mut water, &rule, (&mut porosity, 0.5), &mut memory);
         assert_eq!(porosity, [1.0, 1.0, 0.0]);
         assert!(law.check().is_ok());

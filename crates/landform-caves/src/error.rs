@@ -67,6 +67,15 @@ pub enum CaveError {
     Flow(#[from] FlowError),
 }
 
+/// Checks that a field has one value a voxel.
+pub(crate) fn check_length(
+    name: &'static str,
+    found: usize,
+    expected: usize,
+) -> Result<(), CaveError> {
+    if found == expected { Ok(()) } else { Err(CaveError::Length { name, found, expected }) }
+}
+
 /// Checks that a field has one value a voxel, all within `[least, most]`.
 pub(crate) fn check_values(
     name: &'static str,
@@ -74,9 +83,7 @@ pub(crate) fn check_values(
     expected: usize,
     [least, most]: [f64; 2],
 ) -> Result<(), CaveError> {
-    if values.len() != expected {
-        return Err(CaveError::Length { name, found: values.len(), expected });
-    }
+    check_length(name, values.len(), expected)?;
     match values.iter().position(|value| !(least..=most).contains(value)) {
         Some(node) => Err(CaveError::Value { name, value: values[node], node, least, most }),
         None => Ok(()),

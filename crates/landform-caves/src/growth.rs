@@ -5,6 +5,7 @@ use landform_graph::Lattice;
 
 use crate::CaveError;
 use crate::erosion::{Contributions, Dissolution};
+use crate::error::{check_length, check_values};
 use crate::passages::Passages;
 use crate::pressure::{Avalanches, Rates, initial_pressure};
 use crate::stage_one::{Seed, pressure_zones};
@@ -93,51 +94,45 @@ pub struct Turnover {
     pub dissolved: f64,
 }
 
-/// A cave that grows. Porosity and pressure are the caller's; all else follows from them, from the
-/// water in the pores, and from parameters.
+/// A cave that grows. Porosity, pressure and water are the caller's; all else follows from them and
+/// from parameters.
 #[derive(Clone, Debug)]
 pub struct ChannelGrowth {
     law: GrowthLaw,
     openings: Openings,
-    water: PoreWater,
     passages: Passages,
     avalanches: Avalanches,
     contributions: Contributions,
-    /// Voxels whose water and flow the caller's fields show.
-    shown: [Vec<u32>; 2],
 }
 
 impl ChannelGrowth {
-    /// Bytes a voxel of working memory.
-    pub const BYTES: usize = PoreWater::BYTES + 8 + 4;
+    /// Bytes a voxel of working memory, water with it, where everything is wet: pages of pores, of
+    /// contributions and of passages, and the front of an avalanche.
+    pub const BYTES: usize = 20 + 8 + 4 + 1 + 12;
 
-    /// A cave in rock of this `porosity` that contains `pore_water`, both shares of a voxel's volume.
+    /// A cave in rock of this `porosity`, a share of a voxel's volume.
     ///
     /// # Errors
-    /// [`CaveError`] for fields and parameters out of range and for openings that share voxels.
+    /// [`CaveError`] for porosity and parameters out of range and for openings that share voxels.
     pub fn new(
         lattice: &Lattice,
         law: GrowthLaw,
         openings: Openings,
         porosity: &[f64],
-        pore_water: &[f64],
     ) -> Result<Self, CaveError> {
         law.dissolution.check()?;
         if let Motion::Pressure { rates, .. } = law.motion {
             rates.check()?;
         }
         openings.check()?;
-        let wet = |field: &[f64]| -> Vec<u32> {
-            (0..field.len() as u32).filter(|&node| field[node as usize] > 0.0).collect()
-        };
+        let voxels = lattice.node_count();
+        check_values("porosity", porosity, voxels, [0.0, 1.0])?;
         Ok(Self {
             law,
             openings,
-            water: PoreWater::new(lattice, porosity, pore_water)?,
             passages: Passages::new(lattice, porosity, law.passage),
             avalanches: Avalanches::new(),
-            contributions: Contributions::default(),
-            shown: [wet(pore_water), (0..lattice.node_count() as u32).collect()],
+            contributions: Contributions::new(voxels),
         })
     }
 
@@ -169,22 +164,25 @@ impl ChannelGrowth {
     /// pressure falls around them.
     ///
     /// # Errors
-    /// [`CaveError::March`] if the pressure is not a number somewhere.
+    /// [`CaveError::March`] if the pressure is not a number somewhere, [`CaveError::Length`] if the
+    /// water is that of another lattice.
     pub fn step(
         &mut self,
         lattice: &Lattice,
+        water: &mut PoreWater,
         porosity: &mut [f64],
         pressure: &mut [f64],
     ) -> Result<Turnover, CaveError> {
+        check_length("pore_water", water.voxels(), lattice.node_count())?;
         match self.law.motion {
             Motion::Pressure { rates, exponent, .. } => {
                 let rule = DownPressure { pressure, exponent };
-                let (turnover, opened) = self.flow(lattice, &rule, porosity);
+                let (turnover, opened) = self.flow(lattice, &rule, water, porosity);
                 let passage = |node: usize| self.passages.contains(node);
                 self.avalanches.follow(lattice, pressure, rates, passage, &opened)?;
                 Ok(turnover)
             }
-            Motion::Falling => Ok(self.flow(lattice, &Falling, porosity).0),
+            Motion::Falling => Ok(self.flow(lattice, &Falling, water, porosity).0),
         }
     }
 
@@ -193,18 +191,19 @@ impl ChannelGrowth {
         &mut self,
         lattice: &Lattice,
         rule: &impl Rule,
+        water: &mut PoreWater,
         porosity: &mut [f64],
     ) -> (Turnover, Vec<usize>) {
-        let Self { law, openings, water, passages, contributions, .. } = self;
+        let Self { law, openings, passages, contributions, .. } = self;
         let (mut fed, mut drained) = (0, 0);
         water.begin_iteration();
         for (nodes, &strength) in openings.sources.iter().zip(&openings.strengths) {
             for &node in nodes {
-                fed += u64::from(water.feed(node, strength));
+                fed += u64::from(water.feed(porosity, node, strength));
             }
         }
         for _ in 0..law.sweeps {
-            water.sweep(lattice, rule);
+            water.sweep(lattice, rule, porosity);
             for &sink in &openings.sinks {
                 drained += u64::from(water.drain(sink));
             }
@@ -220,27 +219,6 @@ impl ChannelGrowth {
             dissolved: dissolved.volume,
         };
         (turnover, dissolved.opened)
-    }
-
-    /// Writes water and flow, as shares of a voxel's volume, into fields that show an earlier state
-    /// of this cave.
-    pub fn show(&mut self, pore_water: &mut [f64], flow: &mut [f64]) {
-        let [wet, flowed] = &mut self.shown;
-        wet.drain(..).for_each(|node| pore_water[node as usize] = 0.0);
-        flowed.drain(..).for_each(|node| flow[node as usize] = 0.0);
-        wet.extend(self.water.wet());
-        flowed.extend(self.water.flowed());
-        for &node in wet.iter() {
-            pore_water[node as usize] = f64::from(self.water.contents(node as usize)) / UNIT;
-        }
-        for &node in flowed.iter() {
-            flow[node as usize] = f64::from(self.water.received(node as usize)) / UNIT;
-        }
-    }
-
-    /// The water in the pores.
-    pub fn water(&self) -> &PoreWater {
-        &self.water
     }
 
     /// Where water comes in and goes out.

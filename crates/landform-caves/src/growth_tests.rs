@@ -6,6 +6,7 @@ use crate::place::box_nodes;
 use crate::record::{CaveEventKind, CaveRecord, starts};
 use crate::rock::ChannelLines;
 use landform_graph::{Boundary, Connectivity};
+use landform_sim::checkpoint::Checkpoint;
 
 fn law(rates: Rates, reach_m: f64) -> GrowthLaw {
     GrowthLaw {
@@ -41,6 +42,7 @@ fn openings(sources: &[usize], sinks: &[usize]) -> Openings {
 struct Run {
     lattice: Lattice,
     growth: ChannelGrowth,
+    water: PoreWater,
     porosity: Vec<f64>,
     pressure: Vec<f64>,
     record: CaveRecord,
@@ -50,18 +52,18 @@ const SCALE: CourseScale = CourseScale { least_rise_m: 2.0, apart_m: 8.0, near_m
 
 impl Run {
     fn new(lattice: Lattice, law: GrowthLaw, openings: Openings, porosity: Vec<f64>) -> Self {
-        let dry = vec![0.0; porosity.len()];
-        let mut growth = ChannelGrowth::new(&lattice, law, openings, &porosity, &dry).unwrap();
+        let mut growth = ChannelGrowth::new(&lattice, law, openings, &porosity).unwrap();
         let pressure = growth.first_pressure(&lattice, &porosity).unwrap();
-        Self { lattice, growth, porosity, pressure, record: CaveRecord::default() }
+        let water = PoreWater::dry(porosity.len());
+        Self { lattice, growth, water, porosity, pressure, record: CaveRecord::default() }
     }
 
     /// Iterations with all that they keep; returns what they moved in all.
     fn run(&mut self, iterations: u64) -> Turnover {
-        let Self { lattice, growth, porosity, pressure, record } = self;
+        let Self { lattice, growth, water, porosity, pressure, record } = self;
         let mut all = Turnover::default();
         for iteration in 1..=iterations {
-            let moved = growth.step(lattice, porosity, pressure).unwrap();
+            let moved = growth.step(lattice, water, porosity, pressure).unwrap();
             all.fed += moved.fed;
             all.drained += moved.drained;
             all.dissolved += moved.dissolved;
@@ -85,16 +87,14 @@ fn a_channel_breaks_through_and_nothing_is_lost() {
     let mut run = Run::new(lattice, law(CAVE, 40.0), openings(&[source], &[sink]), rock.clone());
     let moved = run.run(200);
     assert_eq!(run.record.count(CaveEventKind::Breakthrough), 1, "{:?}", run.record);
-    let water = run.growth.water().total() as f64 / UNIT;
+    let water = run.water.total() as f64 / UNIT;
     assert_eq!(moved.fed - moved.drained, water);
     let grown: f64 = run.porosity.iter().zip(&rock).map(|(now, then)| now - then).sum();
     assert!((grown - moved.dissolved).abs() < 1e-9 * grown);
     assert!(run.porosity.iter().all(|porosity| (0.15..=1.0).contains(porosity)));
-    // Fields that show the cave hold what it holds.
-    let (mut shown, mut flow) = (vec![0.0; rock.len()], vec![9.0; rock.len()]);
-    run.growth.show(&mut shown, &mut flow);
-    assert!((shown.iter().sum::<f64>() - water).abs() < 1e-9);
-    assert!(flow.iter().all(|flow| *flow <= 1.0));
+    // Fields that show the water hold what there is.
+    assert!((run.water.content_shares().iter().sum::<f64>() - water).abs() < 1e-9);
+    assert!(run.water.flow_shares().iter().all(|flow| *flow <= 1.0));
 }
 
 /// The pressure that follows growth is that of the rock as it has become.
@@ -106,14 +106,13 @@ fn pressure_after_growth_is_that_of_the_rock() {
     let mut run = Run::new(lattice, law(CAVE, 40.0), ends.clone(), rock);
     run.run(120);
     assert!(run.growth.passages().0.voxels() > 20);
-    let dry = vec![0.0; run.porosity.len()];
-    let afresh = ChannelGrowth::new(&run.lattice, law(CAVE, 40.0), ends, &run.porosity, &dry);
+    let afresh = ChannelGrowth::new(&run.lattice, law(CAVE, 40.0), ends, &run.porosity);
     assert_eq!(afresh.unwrap().first_pressure(&run.lattice, &run.porosity).unwrap(), run.pressure);
 }
 
-/// A cave that is taken up from its fields goes on as if it had not been interrupted.
+/// A cave that is taken up from its fields and its water goes on as if it had not been interrupted.
 #[test]
-fn a_cave_goes_on_from_its_fields() {
+fn a_cave_goes_on_from_what_is_kept() {
     let lattice = block();
     let ends = openings(
         &[lattice.node([2, 3, 7]), lattice.node([8, 12, 8])],
@@ -122,13 +121,16 @@ fn a_cave_goes_on_from_its_fields() {
     let rock = vec![0.2; lattice.node_count()];
     let mut whole = Run::new(lattice, law(CAVE, 40.0), ends.clone(), rock);
     whole.run(40);
-    let (mut water, mut flow) = (vec![0.0; whole.porosity.len()], vec![0.0; whole.porosity.len()]);
-    whole.growth.show(&mut water, &mut flow);
+    let mut checkpoint = Checkpoint::default();
+    checkpoint.saver("state").keep("water", &whole.water);
+    let water: PoreWater = checkpoint.loader("state").keep("water").unwrap();
+    assert_eq!(water.content_shares(), whole.water.content_shares());
+    assert_eq!(water.flow_shares(), whole.water.flow_shares());
     let lattice = whole.lattice.clone();
-    let growth =
-        ChannelGrowth::new(&lattice, law(CAVE, 40.0), ends, &whole.porosity, &water).unwrap();
+    let growth = ChannelGrowth::new(&lattice, law(CAVE, 40.0), ends, &whole.porosity).unwrap();
     let (porosity, pressure) = (whole.porosity.clone(), whole.pressure.clone());
-    let mut taken_up = Run { lattice, growth, porosity, pressure, record: whole.record.clone() };
+    let record = whole.record.clone();
+    let mut taken_up = Run { lattice, growth, water, porosity, pressure, record };
     whole.run(60);
     taken_up.run(60);
     assert_eq!(whole.porosity, taken_up.porosity);

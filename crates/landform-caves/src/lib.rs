@@ -18,14 +18,15 @@ mod plugin;
 pub mod pressure;
 pub mod record;
 pub mod rock;
+mod sparse;
 pub mod stage_one;
 pub mod water;
 
 pub use error::CaveError;
 pub use place::{CaveSink, CaveSource, box_nodes, displacement, height, separation};
 pub use plugin::{
-    CaveCourses, CaveGrowth, CaveHistory, CavePlaces, Passages, PoreFlow, PoreWater, Porosity,
-    Pressure, PressureZone, PressureZones, ProtochannelCount, ProtochannelSystems, Protochannels,
+    CaveCourses, CaveGrowth, CaveHistory, CavePlaces, CaveWater, Passages, Porosity, Pressure,
+    PressureZone, PressureZones, ProtochannelCount, ProtochannelSystems, Protochannels,
     WaterMotion,
 };
 

@@ -2,23 +2,28 @@
 
 use landform_graph::Lattice;
 
-/// Parent of voxels that are rock.
-const ROCK: u32 = u32::MAX;
+use crate::sparse::Sparse;
 
 /// The connected systems of passages. They only grow; each is known by its first voxel, so that its
 /// name does not hang on the order in which it grew.
+///
+/// Takes an eighth and a quarter of a byte a voxel, and 4 bytes where there are passages.
 #[derive(Clone, Debug)]
 pub struct Passages {
-    /// A voxel of the same system with a lower or the same number.
-    parent: Vec<u32>,
+    /// A bit a voxel.
+    open: Vec<u64>,
+    /// For voxels of passages, one of the same system with a lower or the same number.
+    parent: Sparse<u32>,
     voxels: usize,
 }
 
 impl Passages {
     /// The passages of rock: voxels of at least the porosity `passage`.
     pub fn new(lattice: &Lattice, porosity: &[f64], passage: f64) -> Self {
-        let mut passages = Self { parent: vec![ROCK; lattice.node_count()], voxels: 0 };
-        for node in (0..lattice.node_count()).filter(|&node| porosity[node] >= passage) {
+        let count = lattice.node_count();
+        let open = vec![0; count.div_ceil(64)];
+        let mut passages = Self { open, parent: Sparse::new(count), voxels: 0 };
+        for node in (0..count).filter(|&node| porosity[node] >= passage) {
             passages.open(lattice, node);
         }
         passages
@@ -32,7 +37,7 @@ impl Passages {
     /// Whether a voxel is part of a passage.
     #[inline]
     pub fn contains(&self, node: usize) -> bool {
-        self.parent[node] != ROCK
+        self.open[node / 64] >> (node % 64) & 1 == 1
     }
 
     /// Adds a voxel and joins the systems beside it.
@@ -40,12 +45,13 @@ impl Passages {
         if self.contains(node) {
             return;
         }
-        self.parent[node] = node as u32;
+        self.open[node / 64] |= 1 << (node % 64);
+        *self.parent.get_mut(node) = node as u32;
         self.voxels += 1;
         for edge in lattice.neighbours(node) {
             if self.contains(edge.node) {
                 let (one, other) = (self.first(node), self.first(edge.node));
-                self.parent[one.max(other)] = one.min(other) as u32;
+                *self.parent.get_mut(one.max(other)) = one.min(other) as u32;
             }
         }
     }
@@ -56,12 +62,15 @@ impl Passages {
     }
 
     fn first(&mut self, mut node: usize) -> usize {
-        while self.parent[node] as usize != node {
-            let above = self.parent[node] as usize;
-            self.parent[node] = self.parent[above];
-            node = self.parent[node] as usize;
+        loop {
+            let above = self.parent.get(node) as usize;
+            if above == node {
+                return node;
+            }
+            let next = self.parent.get(above);
+            *self.parent.get_mut(node) = next;
+            node = next as usize;
         }
-        node
     }
 }
 

@@ -51,9 +51,9 @@ pub enum Rule {
 pub fn centreline(set: &VoxelSet, turns: Turns, rule: Rule) -> VoxelSet {
     let mut peel = Peel::new(set);
     if rule == Rule::Supported {
-        peel.to_lines(turns, Rule::Supported);
+        peel.thin_to_lines(turns, Rule::Supported);
     }
-    peel.to_lines(turns, Rule::Listed);
+    peel.thin_to_lines(turns, Rule::Listed);
     peel.set
 }
 
@@ -62,7 +62,7 @@ pub fn centreline(set: &VoxelSet, turns: Turns, rule: Rule) -> VoxelSet {
 pub fn plan_sheet(set: &VoxelSet) -> VoxelSet {
     let mut peel = Peel::new(set);
     peel.until_nothing_goes(2, |peel, side| {
-        peel.turn_of_side(side, Rule::Supported, |around| is_simple(around))
+        peel.turn_of_side(side, Rule::Supported, is_simple)
     });
     peel.set
 }
@@ -118,7 +118,7 @@ impl Peel {
     }
 
     /// Takes turns of every side, or of every least number of open sides.
-    fn to_lines(&mut self, turns: Turns, rule: Rule) {
+    fn thin_to_lines(&mut self, turns: Turns, rule: Rule) {
         match turns {
             Turns::Sides => {
                 self.until_nothing_goes(6, |peel, side| peel.turn_of_side(side, rule, may_go));

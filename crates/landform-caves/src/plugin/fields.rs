@@ -13,29 +13,6 @@ impl NodeField for Porosity {
     const LEAST: f64 = 0.0;
 }
 
-/// Water in the pores.
-pub struct PoreWater;
-
-impl NodeField for PoreWater {
-    type Value = f64;
-    const NAME: &'static str = "pore_water";
-    const UNIT: &'static str = "1";
-    const MEANING: &'static str = "share of the voxel that water fills";
-    const LEAST: f64 = 0.0;
-}
-
-/// Water that a voxel received.
-pub struct PoreFlow;
-
-impl NodeField for PoreFlow {
-    type Value = f64;
-    const NAME: &'static str = "pore_flow";
-    const UNIT: &'static str = "1";
-    const MEANING: &'static str =
-        "water that came into the voxel in the latest iteration, as a share of its volume";
-    const LEAST: f64 = 0.0;
-}
-
 /// Pressure of the water in the pores.
 pub struct Pressure;
 

@@ -7,9 +7,10 @@ use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::Commands;
 use bevy_ecs::world::World;
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
 use landform_sim::clock::Clock;
 use landform_sim::fault::Fault;
-use landform_sim::field::{Field, FieldMut, NodeField, stored_values};
+use landform_sim::field::{Field, FieldMut, stored_values};
 use landform_sim::ledger::{Budget, Ledger};
 use landform_sim::nodes::Space;
 use landform_sim::parameters::Problem;
@@ -18,13 +19,14 @@ use landform_sim::sums::sum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::fields::{PoreFlow, PoreWater, Porosity, Pressure};
+use super::fields::{Porosity, Pressure};
 use super::{CavePlaces, openings, refusal};
 use crate::courses::CourseScale;
 use crate::erosion::Dissolution;
 use crate::growth::{ChannelGrowth, GrowthLaw, Motion};
 use crate::pressure::Rates;
 use crate::record::CaveRecord;
+use crate::water::{PoreWater, UNIT};
 use crate::{CaveError, CaveSink, CaveSource};
 
 /// Channels that grow from sources to sinks, link up and capture each other: the second stage of a
@@ -168,16 +170,21 @@ impl Process for CaveGrowth {
     const NAME: &'static str = "CaveGrowth";
 
     fn declare(&self, uses: &mut Declaration) {
+        let came =
+            "water that came into the voxel in the latest iteration, as a share of its volume";
         uses.writes::<Porosity>()
-            .writes::<PoreWater>()
-            .writes::<PoreFlow>()
+            .derives("pore_water", "1", "share of the voxel that water fills", |world| {
+                shares(world, PoreWater::content_shares)
+            })
+            .derives("pore_flow", "1", came, |world| shares(world, PoreWater::flow_shares))
             .writes::<Pressure>()
             .rebuilds::<CaveWorks>()
             .rebuilds::<CavePlaces>()
+            .keeps::<CaveWater>()
             .keeps::<CaveHistory>()
-            .conserves(voxel_volume::<PoreWater>("pore water"))
-            .conserves(voxel_volume::<Porosity>("voids"))
-            .scratch(ChannelGrowth::BYTES + 32);
+            .conserves(volume("pore water", water_m3))
+            .conserves(volume("voids", voids_m3))
+            .scratch(ChannelGrowth::BYTES);
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
@@ -190,13 +197,26 @@ impl Process for CaveGrowth {
     }
 }
 
-/// The volume in m³ that a field of shares makes, conserved to rounding.
-fn voxel_volume<F: NodeField<Value = f64>>(account: &'static str) -> Budget {
-    fn volume<F: NodeField<Value = f64>>(world: &World) -> f64 {
-        sum(stored_values::<F>(world)) * world.resource::<Space>().spacing().powi(3)
-    }
-    let measure = volume::<F>;
+/// An account of volumes, conserved to rounding.
+fn volume(account: &'static str, measure: fn(&World) -> f64) -> Budget {
     Budget { account, unit: "m3", tolerance: 1e-9, measure, magnitude: measure }
+}
+
+fn voids_m3(world: &World) -> f64 {
+    sum(stored_values::<Porosity>(world)) * world.resource::<Space>().spacing().powi(3)
+}
+
+fn water_m3(world: &World) -> f64 {
+    let units = world.get_resource::<CaveWater>().map_or(0, |water| water.0.total());
+    units as f64 / UNIT * world.resource::<Space>().spacing().powi(3)
+}
+
+/// A field of the water; nothing before a cave has any.
+fn shares(world: &World, of: fn(&PoreWater) -> Vec<f64>) -> Vec<f64> {
+    match world.get_resource::<CaveWater>() {
+        Some(water) => of(&water.0),
+        None => vec![0.0; world.resource::<Space>().node_count()],
+    }
 }
 
 impl Plugin for CaveGrowth {
@@ -214,6 +234,24 @@ pub(super) struct CaveWorks {
     pub(super) scale: CourseScale,
 }
 
+/// The water in the pores: of which the fields `pore_water` and `pore_flow` are made when somebody looks.
+/// It stays when a stage ends.
+#[derive(Resource)]
+pub struct CaveWater(
+    /// What voxels contain, and what came into them.
+    pub PoreWater,
+);
+
+impl Keep for CaveWater {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        self.0.save(to);
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        Ok(Self(PoreWater::restore(from)?))
+    }
+}
+
 /// What happened so far.
 #[derive(Resource, Default, Serialize, Deserialize)]
 pub struct CaveHistory(
@@ -225,7 +263,7 @@ fn lay_out(
     mut commands: Commands,
     (settings, space): (Res<Settings<CaveGrowth>>, Res<Space>),
     mut fault: ResMut<Fault>,
-    (porosity, water): (Field<Porosity>, Field<PoreWater>),
+    (porosity, water): (Field<Porosity>, Option<Res<CaveWater>>),
     mut pressure: FieldMut<Pressure>,
 ) {
     let made = || -> Result<(ChannelGrowth, Vec<f64>), String> {
@@ -233,8 +271,7 @@ fn lay_out(
         let openings = openings(&space, &settings.sources, &settings.sinks)
             .map_err(|problem| problem.message)?;
         let (rock, law) = (porosity.values(), settings.law());
-        let mut growth =
-            ChannelGrowth::new(&space, law, openings, rock, water.values()).map_err(told)?;
+        let mut growth = ChannelGrowth::new(&space, law, openings, rock).map_err(told)?;
         let first = growth.first_pressure(&space, rock).map_err(told)?;
         Ok((growth, first))
     };
@@ -244,6 +281,9 @@ fn lay_out(
             commands.insert_resource(CaveWorks { growth, scale: settings.scale(&space) });
             commands.insert_resource(CaveHistory::default());
             commands.insert_resource(CavePlaces::of(&space, &settings.sources, &settings.sinks));
+            if water.is_none() {
+                commands.insert_resource(CaveWater(PoreWater::dry(space.node_count())));
+            }
         }
         Err(message) => fault.raise(message),
     }
@@ -251,19 +291,17 @@ fn lay_out(
 
 /// An iteration.
 fn grow(
-    (mut works, space): (ResMut<CaveWorks>, Res<Space>),
+    (mut works, mut water, space): (ResMut<CaveWorks>, ResMut<CaveWater>, Res<Space>),
     (mut ledger, mut fault): (ResMut<Ledger>, ResMut<Fault>),
     (mut porosity, mut pressure): (FieldMut<Porosity>, FieldMut<Pressure>),
-    (mut water, mut flow): (FieldMut<PoreWater>, FieldMut<PoreFlow>),
 ) {
-    let growth = &mut works.growth;
-    match growth.step(&space, porosity.values_mut(), pressure.values_mut()) {
+    let (growth, water) = (&mut works.growth, &mut water.0);
+    match growth.step(&space, water, porosity.values_mut(), pressure.values_mut()) {
         Ok(turnover) => {
             let voxel_m3 = space.spacing().powi(3);
             ledger.enter("pore water", "sources", turnover.fed * voxel_m3);
             ledger.leave("pore water", "sinks", turnover.drained * voxel_m3);
             ledger.enter("voids", "dissolution", turnover.dissolved * voxel_m3);
-            growth.show(water.values_mut(), flow.values_mut());
         }
         Err(error) => fault.raise(error.to_string()),
     }

@@ -7,8 +7,8 @@ mod network_metrics;
 mod places;
 mod protochannels;
 
-pub use fields::{PoreFlow, PoreWater, Porosity, Pressure, PressureZone, ProtochannelCount};
-pub use growth::{CaveGrowth, CaveHistory, WaterMotion};
+pub use fields::{Porosity, Pressure, PressureZone, ProtochannelCount};
+pub use growth::{CaveGrowth, CaveHistory, CaveWater, WaterMotion};
 pub use metrics::{CaveCourses, Passages};
 pub use network_metrics::{PressureZones, ProtochannelSystems};
 pub use places::CavePlaces;

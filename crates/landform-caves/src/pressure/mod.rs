@@ -25,7 +25,7 @@ use landform_graph::marching::Relaxation;
 use landform_graph::{Edge, Lattice};
 
 use crate::CaveError;
-use crate::error::check_range;
+use crate::error::{check_length, check_range};
 use crate::stage_one::Zones;
 
 /// How steeply pressure may rise.
@@ -82,10 +82,11 @@ impl Avalanches {
     }
 
     /// Lowers `pressure` everywhere to what the rates allow, whatever it was. Returns the number of
-    /// times that a voxel was looked at.
+    /// times that a voxel lowered others.
     ///
     /// # Errors
-    /// [`CaveError::March`] if the pressure has not one number a voxel.
+    /// [`CaveError::Length`] if the pressure has not one value a voxel, [`CaveError::March`] for values
+    /// without meaning.
     pub fn settle(
         &mut self,
         lattice: &Lattice,
@@ -93,13 +94,18 @@ impl Avalanches {
         rates: Rates,
         in_channel: impl Fn(usize) -> bool,
     ) -> Result<usize, CaveError> {
+        check_length("pressure", pressure.len(), lattice.node_count())?;
+        let is_too_low = |node: usize| {
+            let allowed = |edge: &Edge| pressure[node] + rates.rise(node, edge, &in_channel);
+            lattice.neighbours(node).any(|edge| allowed(&edge) < pressure[edge.node])
+        };
         self.starts.clear();
-        self.starts.extend(0..lattice.node_count());
+        self.starts.extend((0..lattice.node_count()).filter(|&node| is_too_low(node)));
         self.relax(lattice, pressure, rates, in_channel)
     }
 
     /// Lowers `pressure`, which was settled, after channels grew: `opened` are the voxels that are
-    /// new to them. Returns the number of times that a voxel was looked at.
+    /// new to them. Returns the number of times that a voxel lowered others.
     ///
     /// # Errors
     /// [`CaveError::March`] if the pressure has not one number a voxel, or an opened voxel does not
@@ -131,6 +137,8 @@ impl Avalanches {
     ) -> Result<usize, CaveError> {
         let width = 2.0 * rates.rock_per_m * lattice.spacing();
         let rise = |from: usize, edge: &Edge| rates.rise(from, edge, &in_channel);
-        Ok(self.relaxation.relax(lattice, pressure, &self.starts, width, rise)?)
+        // All edges of a voxel of rock rise at the rate of rock, and none rises more steeply.
+        let is_rock = |node: usize| !in_channel(node);
+        Ok(self.relaxation.relax_even(lattice, pressure, &self.starts, width, rise, is_rock)?)
     }
 }

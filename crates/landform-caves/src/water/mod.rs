@@ -1,7 +1,7 @@
 //! Water in the pores of rock (thesis, listing 5.3 and section 5.1).
 //!
-//! [`PoreWater`] holds what every voxel contains and what it has room for, in whole units, so that
-//! nothing is lost. [`PoreWater::sweep`] lets all wet voxels offer water to their neighbours at the
+//! [`PoreWater`] holds what voxels contain, in whole units, so that nothing is lost; what they have
+//! room for follows from their porosity ([`Pores`]). [`PoreWater::sweep`] lets all wet voxels offer water to their neighbours at the
 //! same moment by a [`Rule`]: [`DownPressure`] to those of lower pressure, [`Falling`] to those below.
 //! A voxel that is offered more than it has room for takes the same part of every offer. Listing 5.3
 //! updates voxel after voxel, so that its result hangs on their order; here no order can matter, and
@@ -18,7 +18,7 @@ mod reference;
 mod tests;
 
 pub use falling::Falling;
-pub use pool::{FILM, PoreWater, UNIT};
+pub use pool::{FILM, PoreWater, Pores, UNIT};
 
 use landform_graph::Lattice;
 
@@ -29,7 +29,7 @@ pub trait Rule {
     fn offer(
         &self,
         lattice: &Lattice,
-        water: &PoreWater,
+        pores: &Pores<'_>,
         node: usize,
         offers: &mut Vec<(u32, u32)>,
     );
@@ -54,7 +54,7 @@ impl Rule for DownPressure<'_> {
     fn offer(
         &self,
         lattice: &Lattice,
-        water: &PoreWater,
+        pores: &Pores<'_>,
         node: usize,
         offers: &mut Vec<(u32, u32)>,
     ) {
@@ -65,7 +65,7 @@ impl Rule for DownPressure<'_> {
         for edge in lattice.neighbours(node) {
             let difference = here - self.pressure[edge.node];
             if difference > 0.0 {
-                let room = water.room(edge.node);
+                let room = pores.room(edge.node);
                 if room > 0 {
                     weights[offers.len() - first] = difference;
                     largest = largest.max(difference);
@@ -81,7 +81,7 @@ impl Rule for DownPressure<'_> {
         for ((_, amount), weight) in offers.iter_mut().zip(weights) {
             *amount = (f64::from(*amount) * (*weight / sum)) as u32;
         }
-        reduce(offers, water.contents(node));
+        reduce(offers, pores.contents(node));
     }
 
     #[inline]

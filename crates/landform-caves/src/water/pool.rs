@@ -1,10 +1,10 @@
 //! What voxels contain, and a sweep of offers.
 
 use landform_graph::Lattice;
+use landform_sim::checkpoint::{Damage, Keep, Loader, Saver};
 
 use super::Rule;
-use crate::CaveError;
-use crate::error::check_values;
+use crate::sparse::Sparse;
 
 /// Units of water in the volume of a voxel, 2^26: all that 26 neighbours can offer fits 32 bits.
 pub const UNIT: f64 = 67_108_864.0;
@@ -14,25 +14,40 @@ pub const FILM: u32 = 1 << 14;
 
 /// Water in pores, in units of a voxel's volume over 2^26.
 ///
-/// Everything costs what is wet, whatever the size of the lattice.
+/// Everything costs what is wet, memory too, whatever the size of the lattice.
 #[derive(Clone, Debug)]
 pub struct PoreWater {
-    contents: Vec<u32>,
-    capacity: Vec<u32>,
-    /// Units received since [`PoreWater::begin_iteration`].
-    received: Vec<u32>,
+    voxels: usize,
+    pores: Sparse<Pore>,
     /// Voxels that contain water, in order.
     wet: Vec<u32>,
-    is_wet: Vec<bool>,
     /// Voxels that received water, in order after [`PoreWater::flowed`].
     flowed: Vec<u32>,
     offers: Vec<(u32, u32)>,
     /// End of the offers of each wet voxel, and what is taken of them.
     given: Vec<(usize, u32)>,
-    asked: Vec<u32>,
-    gain: Vec<u32>,
     /// Voxels that are offered something.
     touched: Vec<u32>,
+}
+
+/// The units of a voxel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pore {
+    contents: u32,
+    /// Received since [`PoreWater::begin_iteration`].
+    received: u32,
+    /// Offered in this sweep, and taken of that.
+    asked: u32,
+    gain: u32,
+    /// Whether the voxel is in the list of those that contain water.
+    is_wet: bool,
+}
+
+/// Water in rock of a porosity.
+#[derive(Clone, Copy)]
+pub struct Pores<'a> {
+    water: &'a PoreWater,
+    porosity: &'a [f64],
 }
 
 /// Porosity as room for water.
@@ -41,64 +56,60 @@ fn units(share: f64) -> u32 {
     (share * UNIT) as u32
 }
 
-impl PoreWater {
-    /// Bytes a voxel.
-    pub const BYTES: usize = 5 * 4 + 1;
-
-    /// Water in rock of this porosity: `water` is the share of each voxel's volume that is water.
-    ///
-    /// # Errors
-    /// [`CaveError::Length`] and [`CaveError::Value`]: all shares lie from 0 to 1. Water that does not
-    /// fit into the pores is refused.
-    pub fn new(lattice: &Lattice, porosity: &[f64], water: &[f64]) -> Result<Self, CaveError> {
-        let count = lattice.node_count();
-        check_values("porosity", porosity, count, [0.0, 1.0])?;
-        check_values("pore_water", water, count, [0.0, 1.0])?;
-        let capacity: Vec<u32> = porosity.iter().map(|&porosity| units(porosity)).collect();
-        let contents: Vec<u32> = water.iter().map(|&water| units(water)).collect();
-        if let Some(node) = (0..count).find(|&node| contents[node] > capacity[node]) {
-            let (value, most) = (water[node], porosity[node]);
-            return Err(CaveError::Value { name: "pore_water", value, node, least: 0.0, most });
-        }
-        let is_wet: Vec<bool> = contents.iter().map(|&contents| contents > 0).collect();
-        let wet = (0..count as u32).filter(|&node| is_wet[node as usize]).collect();
-        Ok(Self {
-            contents,
-            capacity,
-            received: vec![0; count],
-            wet,
-            is_wet,
-            flowed: Vec::new(),
-            offers: Vec::new(),
-            given: Vec::new(),
-            asked: vec![0; count],
-            gain: vec![0; count],
-            touched: Vec::new(),
-        })
-    }
-
+impl Pores<'_> {
     /// Units that a voxel contains.
     #[inline]
     pub fn contents(&self, node: usize) -> u32 {
-        self.contents[node]
+        self.water.contents(node)
     }
 
     /// Units that a voxel may contain.
     #[inline]
     pub fn capacity(&self, node: usize) -> u32 {
-        self.capacity[node]
+        units(self.porosity[node])
     }
 
     /// Units that still fit into a voxel.
     #[inline]
     pub fn room(&self, node: usize) -> u32 {
-        self.capacity[node] - self.contents[node]
+        self.capacity(node).saturating_sub(self.contents(node))
+    }
+}
+
+impl PoreWater {
+    /// Dry rock of so many voxels.
+    pub fn dry(voxels: usize) -> Self {
+        Self {
+            voxels,
+            pores: Sparse::new(voxels),
+            wet: Vec::new(),
+            flowed: Vec::new(),
+            offers: Vec::new(),
+            given: Vec::new(),
+            touched: Vec::new(),
+        }
+    }
+
+    /// The water in rock of this porosity, one value a voxel.
+    pub fn in_rock<'a>(&'a self, porosity: &'a [f64]) -> Pores<'a> {
+        Pores { water: self, porosity }
+    }
+
+    /// Number of voxels, wet or dry.
+    pub fn voxels(&self) -> usize {
+        self.voxels
+    }
+
+    /// Units that a voxel contains.
+    #[inline]
+    pub fn contents(&self, node: usize) -> u32 {
+        self.pores.get(node).contents
     }
 
     /// Units that a voxel received in this iteration.
     #[inline]
     pub fn received(&self, node: usize) -> u32 {
-        self.received[node]
+        self.pores.get(node).received
     }
 
     /// Voxels that contain water.
@@ -112,73 +123,92 @@ impl PoreWater {
         &self.flowed
     }
 
-    /// All water, in units.
-    pub fn total(&self) -> u64 {
-        self.wet.iter().map(|&node| u64::from(self.contents[node as usize])).sum()
+    /// What every voxel contains, as a share of its volume.
+    pub fn content_shares(&self) -> Vec<f64> {
+        self.shares(&self.wet, |pore| pore.contents)
     }
 
-    /// Makes room in a voxel whose porosity has grown.
-    pub fn widen(&mut self, node: usize, porosity: f64) {
-        self.capacity[node] = units(porosity).max(self.capacity[node]);
+    /// What every voxel received in this iteration, as a share of its volume.
+    pub fn flow_shares(&self) -> Vec<f64> {
+        self.shares(&self.flowed, |pore| pore.received)
+    }
+
+    fn shares(&self, nodes: &[u32], of: impl Fn(Pore) -> u32) -> Vec<f64> {
+        let mut shares = vec![0.0; self.voxels];
+        for &node in nodes {
+            shares[node as usize] = f64::from(of(self.pores.get(node as usize))) / UNIT;
+        }
+        shares
+    }
+
+    /// All water, in units.
+    pub fn total(&self) -> u64 {
+        self.wet.iter().map(|&node| u64::from(self.contents(node as usize))).sum()
     }
 
     /// Forgets what was received.
     pub fn begin_iteration(&mut self) {
         for node in self.flowed.drain(..) {
-            self.received[node as usize] = 0;
+            self.pores.get_mut(node as usize).received = 0;
         }
     }
 
-    /// Adds up to `share` of its volume to a voxel, no more than it has room for; returns the units
-    /// added.
-    pub fn feed(&mut self, node: usize, share: f64) -> u32 {
-        let amount = units(share.clamp(0.0, 1.0)).min(self.room(node));
+    /// Adds up to `share` of its volume to a voxel, no more than it has room for in rock of this
+    /// `porosity`; returns the units added.
+    pub fn feed(&mut self, porosity: &[f64], node: usize, share: f64) -> u32 {
+        let amount = units(share.clamp(0.0, 1.0)).min(self.in_rock(porosity).room(node));
         self.add(node, amount);
         amount
     }
 
     /// Empties a voxel; returns the units that it contained.
     pub fn drain(&mut self, node: usize) -> u32 {
-        std::mem::take(&mut self.contents[node])
+        match self.contents(node) {
+            0 => 0,
+            _ => std::mem::take(&mut self.pores.get_mut(node).contents),
+        }
     }
 
-    /// Lets all wet voxels give water to neighbours once, by a rule.
-    pub fn sweep(&mut self, lattice: &Lattice, rule: &impl Rule) {
-        self.collect_offers(lattice, rule);
-        self.take_offers();
+    /// Lets all wet voxels give water to neighbours once, by a rule, in rock of this `porosity`.
+    pub fn sweep(&mut self, lattice: &Lattice, rule: &impl Rule, porosity: &[f64]) {
+        self.collect_offers(lattice, rule, porosity);
+        self.take_offers(porosity);
         for (&node, &(_, given)) in self.wet.iter().zip(&self.given) {
-            self.contents[node as usize] -= given;
+            self.pores.get_mut(node as usize).contents -= given;
         }
         let mut touched = std::mem::take(&mut self.touched);
         for node in touched.drain(..) {
-            self.asked[node as usize] = 0;
-            let amount = std::mem::take(&mut self.gain[node as usize]);
+            let pore = self.pores.get_mut(node as usize);
+            pore.asked = 0;
+            let amount = std::mem::take(&mut pore.gain);
             self.add(node as usize, amount);
         }
         self.touched = touched;
-        let Self { wet, is_wet, contents, .. } = self;
+        let Self { wet, pores, .. } = self;
         wet.retain(|&node| {
-            is_wet[node as usize] = contents[node as usize] > 0;
-            is_wet[node as usize]
+            let pore = pores.get_mut(node as usize);
+            pore.is_wet = pore.contents > 0;
+            pore.is_wet
         });
         // Sorted runs, which the stable sort merges: windows of memory are visited in sequence.
         wet.sort();
     }
 
-    fn collect_offers(&mut self, lattice: &Lattice, rule: &impl Rule) {
+    fn collect_offers(&mut self, lattice: &Lattice, rule: &impl Rule, porosity: &[f64]) {
         let mut offers = std::mem::take(&mut self.offers);
         offers.clear();
         self.given.clear();
         for at in 0..self.wet.len() {
             let (first, node) = (offers.len(), self.wet[at] as usize);
-            if self.contents[node] > FILM {
-                rule.offer(lattice, self, node, &mut offers);
+            if self.contents(node) > FILM {
+                rule.offer(lattice, &self.in_rock(porosity), node, &mut offers);
             }
-            for &(node, amount) in &offers[first..] {
-                if self.asked[node as usize] == 0 && amount > 0 {
+            for &(node, amount) in offers[first..].iter().filter(|offer| offer.1 > 0) {
+                let pore = self.pores.get_mut(node as usize);
+                if pore.asked == 0 {
                     self.touched.push(node);
                 }
-                self.asked[node as usize] += amount;
+                pore.asked += amount;
             }
             self.given.push((offers.len(), 0));
         }
@@ -186,17 +216,17 @@ impl PoreWater {
     }
 
     /// Settles what each voxel takes: all it is offered, or the same part of every offer.
-    fn take_offers(&mut self) {
+    fn take_offers(&mut self, porosity: &[f64]) {
         let mut first = 0;
         for (end, given) in &mut self.given {
-            for &(node, amount) in &self.offers[first..*end] {
-                let node = node as usize;
-                let (asked, room) = (self.asked[node], self.capacity[node] - self.contents[node]);
-                let taken = match asked <= room {
+            for &(node, amount) in self.offers[first..*end].iter().filter(|offer| offer.1 > 0) {
+                let pore = self.pores.get_mut(node as usize);
+                let room = units(porosity[node as usize]).saturating_sub(pore.contents);
+                let taken = match pore.asked <= room {
                     true => amount,
-                    false => (u64::from(amount) * u64::from(room) / u64::from(asked)) as u32,
+                    false => (u64::from(amount) * u64::from(room) / u64::from(pore.asked)) as u32,
                 };
-                self.gain[node] += taken;
+                pore.gain += taken;
                 *given += taken;
             }
             first = *end;
@@ -208,13 +238,48 @@ impl PoreWater {
         if amount == 0 {
             return;
         }
-        self.contents[node] += amount;
-        if self.received[node] == 0 {
+        let pore = self.pores.get_mut(node);
+        pore.contents += amount;
+        if pore.received == 0 {
             self.flowed.push(node as u32);
         }
-        self.received[node] = self.received[node].saturating_add(amount);
-        if !std::mem::replace(&mut self.is_wet[node], true) {
+        pore.received = pore.received.saturating_add(amount);
+        if !std::mem::replace(&mut pore.is_wet, true) {
             self.wet.push(node as u32);
         }
+    }
+}
+
+/// Wet voxels and those with flow are kept with their units; the rest is memory to work in.
+impl Keep for PoreWater {
+    fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
+        let units = |nodes: &[u32], of: fn(Pore) -> u32| -> Vec<u32> {
+            nodes.iter().map(|&node| of(self.pores.get(node as usize))).collect()
+        };
+        to.value("voxels", &self.voxels);
+        to.array("wet", &self.wet);
+        to.owned("contents", units(&self.wet, |pore| pore.contents));
+        to.array("flowed", &self.flowed);
+        to.owned("received", units(&self.flowed, |pore| pore.received));
+    }
+
+    fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
+        let mut water = Self::dry(from.value("voxels")?);
+        let nodes = |name: &str| -> Result<Vec<u32>, Damage> {
+            let nodes: &[u32] = from.array(name)?;
+            match nodes.iter().all(|&node| (node as usize) < water.voxels) {
+                true => Ok(nodes.to_vec()),
+                false => Err(from.refuse(name, "a voxel that does not exist")),
+            }
+        };
+        let (wet, flowed) = (nodes("wet")?, nodes("flowed")?);
+        for (&node, &contents) in wet.iter().zip(from.array_of("contents", wet.len())?) {
+            let pore = water.pores.get_mut(node as usize);
+            (pore.contents, pore.is_wet) = (contents, true);
+        }
+        for (&node, &received) in flowed.iter().zip(from.array_of("received", flowed.len())?) {
+            water.pores.get_mut(node as usize).received = received;
+        }
+        Ok(Self { wet, flowed, ..water })
     }
 }

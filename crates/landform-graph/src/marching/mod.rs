@@ -13,6 +13,7 @@
 mod distance;
 mod eikonal;
 mod front;
+mod onward;
 mod queue;
 mod relaxation;
 mod upwind;
