@@ -8,7 +8,7 @@ use crate::erosion::{Contributions, Dissolution};
 use crate::error::{check_length, check_values};
 use crate::passages::Passages;
 use crate::pressure::{Avalanches, Rates, initial_pressure};
-use crate::stage_one::{Seed, pressure_zones};
+use crate::stage_one::{Seed, weighted_distances};
 use crate::water::{DownPressure, Falling, PoreWater, Rule, UNIT};
 
 /// Where water comes in and goes out, by voxels.
@@ -140,7 +140,7 @@ impl ChannelGrowth {
     /// falls.
     ///
     /// # Errors
-    /// [`CaveError`] as of [`pressure_zones`].
+    /// [`CaveError`] as of [`weighted_distances`].
     pub fn first_pressure(
         &mut self,
         lattice: &Lattice,
@@ -150,8 +150,8 @@ impl ChannelGrowth {
             return Ok(vec![0.0; lattice.node_count()]);
         };
         let seeds = self.openings.seeds();
-        let zones = pressure_zones(lattice, |node| porosity[node] > 0.0, &seeds)?;
-        let mut pressure = initial_pressure(&zones, most, fall);
+        let distances = weighted_distances(lattice, |node| porosity[node] > 0.0, &seeds)?;
+        let mut pressure = initial_pressure(&distances, most, fall);
         for &sink in &self.openings.sinks {
             pressure[sink] = 0.0;
         }

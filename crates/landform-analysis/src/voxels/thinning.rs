@@ -61,9 +61,7 @@ pub fn centreline(set: &VoxelSet, turns: Turns, rule: Rule) -> VoxelSet {
 /// go while another one lies behind them, so that the sheet has the extent of the set.
 pub fn plan_sheet(set: &VoxelSet) -> VoxelSet {
     let mut peel = Peel::new(set);
-    peel.until_nothing_goes(2, |peel, side| {
-        peel.turn_of_side(side, Rule::Supported, is_simple)
-    });
+    peel.until_nothing_goes(2, |peel, side| peel.turn_of_side(side, Rule::Supported, is_simple));
     peel.set
 }
 
@@ -262,10 +260,11 @@ mod tests {
             let mut left = usize::MAX;
             while thin.len() < left {
                 left = thin.len();
-                for kind in 0..if turns == Turns::Sides { 6 } else { 5 } {
+                let kinds = if turns == Turns::Sides { 6 } else { 5 };
+                for (kind, &sides) in SIDES.iter().enumerate().take(kinds) {
                     let goes = |before: u32, around: u32| {
                         let sides: Vec<[u32; 2]> = match turns {
-                            Turns::Sides => vec![SIDES[kind]],
+                            Turns::Sides => vec![sides],
                             Turns::ExposedSides => {
                                 SIDES.into_iter().filter(|[side, _]| before & side == 0).collect()
                             }

@@ -26,7 +26,6 @@ use landform_graph::{Edge, Lattice};
 
 use crate::CaveError;
 use crate::error::{check_length, check_range};
-use crate::stage_one::Zones;
 
 /// How steeply pressure may rise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,14 +57,16 @@ impl Rates {
 /// Pressure before channels break through: highest at the sources, falling evenly with the weighted
 /// distance from them (thesis, section 5.2.1).
 ///
-/// It is `most (1 - fall D / D_max)`, D the distance of `zones` and D_max the largest of them: `most` at
-/// sources, less by the share `fall` of it where the zones end. Rock that no source claims has the
-/// pressure of the farthest.
-pub fn initial_pressure(zones: &Zones, most: f64, fall: f64) -> Vec<f64> {
-    let finite = zones.distance.iter().copied().filter(|distance| distance.is_finite());
+/// It is `most (1 - fall D / D_max)`, D the `distances` ([`weighted_distances`]) and D_max the largest of
+/// them: `most` at sources, less by the share `fall` of it where the zones end. Rock that no source
+/// claims has the pressure of the farthest.
+///
+/// [`weighted_distances`]: crate::stage_one::weighted_distances
+pub fn initial_pressure(distances: &[f64], most: f64, fall: f64) -> Vec<f64> {
+    let finite = distances.iter().copied().filter(|distance| distance.is_finite());
     let farthest = finite.fold(f64::MIN_POSITIVE, f64::max);
     let share = |distance: &f64| (distance / farthest).min(1.0);
-    zones.distance.iter().map(|distance| most * (1.0 - fall * share(distance))).collect()
+    distances.iter().map(|distance| most * (1.0 - fall * share(distance))).collect()
 }
 
 /// Keeps pressure at the greatest field that the rates allow; memory that is used again.

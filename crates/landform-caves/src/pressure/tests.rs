@@ -2,7 +2,7 @@
 
 use super::reference::{by_front, by_rounds, by_sweeps};
 use super::*;
-use crate::stage_one::{Seed, pressure_zones};
+use crate::stage_one::{Seed, weighted_distances};
 use landform_graph::{Boundary, Connectivity};
 use landform_sim::random::RandomStream;
 use proptest::prelude::*;
@@ -123,8 +123,8 @@ fn scaled_rates_give_scaled_pressure() {
 fn initial_pressure_falls_from_the_sources() {
     let lattice = Lattice::plane([11, 1], 1.0, Connectivity::Eight, [Boundary::Open; 2]).unwrap();
     let seed = Seed { node: 0, source: 0, pressure: 1.0 };
-    let zones = pressure_zones(&lattice, |node| node < 6, &[seed]).unwrap();
-    let pressure = initial_pressure(&zones, 10.0, 0.5);
+    let distances = weighted_distances(&lattice, |node| node < 6, &[seed]).unwrap();
+    let pressure = initial_pressure(&distances, 10.0, 0.5);
     assert_eq!(pressure[..6], [10.0, 9.0, 8.0, 7.0, 6.0, 5.0]);
     assert_eq!(pressure[6..], [5.0; 5]);
     assert!(Rates { rock_per_m: 0.1, channel_per_m: 0.2 }.check().is_err());

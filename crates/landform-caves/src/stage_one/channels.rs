@@ -43,13 +43,17 @@ pub fn protochannels(
     seeds: &[Seed],
     sinks: &[(usize, u32)],
 ) -> Result<Network, CaveError> {
+    let units: Vec<u32> =
+        porosity.iter().map(|porosity| (porosity.clamp(0.0, 1.0) * UNITS) as u32).collect();
     let capacity = |from: usize, edge: &Edge| match zones.owner[from] == zones.owner[edge.node] {
-        true => (porosity[from].min(porosity[edge.node]).clamp(0.0, 1.0) * UNITS) as u32,
+        true => units[from].min(units[edge.node]),
         false => 0,
     };
+    let ease: Vec<f64> = porosity.iter().map(|porosity| porosity.clamp(1.0 / UNITS, 1.0)).collect();
+    let lengths = lattice.edge_lengths().map(|length| length / lattice.spacing());
     let cost = |from: usize, edge: &Edge| {
-        let porosity = porosity[from].min(porosity[edge.node]);
-        edge.distance / lattice.spacing() / porosity.clamp(1.0 / UNITS, 1.0)
+        let axes = edge.step.iter().filter(|along| **along != 0).count();
+        lengths[axes - 1] / ease[from].min(ease[edge.node])
     };
     let is_seed = |node: usize| seeds.iter().any(|seed| seed.node == node);
     // What flows between voxels of a source does not leave it.

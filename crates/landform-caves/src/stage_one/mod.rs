@@ -12,4 +12,4 @@ mod zones;
 
 pub use channels::{Network, protochannels};
 pub use protosinks::{Preference, protosinks};
-pub use zones::{NO_SOURCE, Seed, Zones, pressure_zones};
+pub use zones::{NO_SOURCE, Seed, Zones, pressure_zones, weighted_distances};

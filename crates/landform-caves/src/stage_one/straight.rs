@@ -1,26 +1,25 @@
-//! Zones by looking at every seed from every voxel.
+//! Distances from sources by looking at every seed from every voxel.
 
 use landform_graph::Lattice;
 
-use super::zones::{NO_SOURCE, Seed, Zones};
+use super::zones::Seed;
 use crate::place::between;
 
 /// Seeds up to which looking at all of them is faster than a front.
 const MOST_SEEDS: usize = 64;
 
-/// The zones that a front finds, found without one where that is sure to come out the same: `None`
-/// elsewhere.
+/// The distances that a front finds, found without one where they are sure to come out the same: `None`
+/// elsewhere. Infinite where the rock is closed.
 ///
 /// The nearest seed of a voxel is that of the definition. A front gives a voxel this seed when voxels
-/// of the same seed lead there, so a flood over them tells whether it does. Voxels that are as near to a
-/// second seed are not flooded over; the order of a front decides about them, so the seeds must belong
-/// to one source.
-pub(super) fn straight_zones(
+/// of the same seed lead there, so a flood over them tells whether it does. Which of two equally near
+/// seeds a front gives a voxel hangs on its order, so such voxels are not flooded over.
+pub(super) fn straight_distances(
     lattice: &Lattice,
     open: impl Fn(usize) -> bool,
     seeds: &[Seed],
     max_pressure: f64,
-) -> Option<Zones> {
+) -> Option<Vec<f64>> {
     let nodes = lattice.node_count();
     if seeds.len() > MOST_SEEDS || seeds.iter().any(|seed| seed.node >= nodes) {
         return None;
@@ -28,25 +27,19 @@ pub(super) fn straight_zones(
     let mut nearest = Vec::with_capacity(nodes);
     for layer in 0..lattice.depth() {
         for row in 0..lattice.height() {
-            for column in 0..lattice.width() {
-                nearest.push(Nearest::of(lattice, [column, row, layer], seeds, max_pressure)?);
-            }
+            let voxels = (0..lattice.width()).map(|column| [column, row, layer]);
+            nearest.extend(voxels.map(|voxel| Nearest::of(lattice, voxel, seeds, max_pressure)));
         }
     }
     let reached = flood(lattice, &open, seeds, &nearest);
-    if !(0..nodes).all(|node| reached[node] || !open(node)) {
-        return None;
-    }
-    let of_reached = || nearest.iter().zip(&reached);
-    let owner = of_reached().map(|(nearest, reached)| match reached {
-        true => seeds[nearest.seed as usize].source,
-        false => NO_SOURCE,
-    });
-    let distance = of_reached().map(|(nearest, reached)| match reached {
-        true => nearest.distance,
-        false => f64::INFINITY,
-    });
-    Some(Zones { owner: owner.collect(), distance: distance.collect() })
+    let is_sure = (0..nodes).all(|node| reached[node] || !open(node));
+    is_sure.then(|| {
+        let distance = |(nearest, reached): (Nearest, bool)| match reached {
+            true => nearest.distance,
+            false => f64::INFINITY,
+        };
+        nearest.into_iter().zip(reached).map(distance).collect()
+    })
 }
 
 /// The seed nearest to a voxel.
@@ -61,21 +54,17 @@ struct Nearest {
 }
 
 impl Nearest {
-    /// `None` if seeds of different sources are equally near.
-    fn of(lattice: &Lattice, voxel: [usize; 3], seeds: &[Seed], max_pressure: f64) -> Option<Self> {
+    fn of(lattice: &Lattice, voxel: [usize; 3], seeds: &[Seed], max_pressure: f64) -> Self {
         let mut nearest = Self { distance: f64::INFINITY, seed: 0, is_shared: false };
-        let mut is_contested = false;
         for (number, seed) in seeds.iter().enumerate() {
             let distance = weighted(lattice, voxel, seed, max_pressure);
             if distance < nearest.distance {
                 nearest = Self { distance, seed: number as u32, is_shared: false };
-                is_contested = false;
             } else if distance == nearest.distance {
                 nearest.is_shared = true;
-                is_contested |= seed.source != seeds[nearest.seed as usize].source;
             }
         }
-        (!is_contested).then_some(nearest)
+        nearest
     }
 }
 

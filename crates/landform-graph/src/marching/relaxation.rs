@@ -83,8 +83,11 @@ impl Relaxation {
         cost: impl Fn(usize, &Edge) -> f64,
     ) -> Result<usize, MarchError> {
         self.begin(lattice, values, starts, width)?;
-        self.run(values, width, |this, frontier, values| {
-            this.relax_frontier(lattice, values, frontier, &cost)
+        self.run(values, width, |this, values, from| {
+            let value = values[from];
+            lattice
+                .neighbours(from)
+                .try_for_each(|edge| this.lower(values, (from, value), &edge, &cost).map(drop))
         })
     }
 
@@ -112,46 +115,48 @@ impl Relaxation {
         let onward = Onward::of(lattice);
         // Beyond this the rounding of sums is no longer small beside an edge.
         let limit = width * 1e10;
-        self.run(values, width, |this, frontier, values| {
-            for &node in frontier {
-                let from = node as usize;
-                let value = values[from];
-                let directions = onward.after(this.came[from]).filter(|_| {
-                    let is_small = value.abs() < limit;
-                    is_small && is_even(from) && lattice.is_interior(lattice.coordinates(from))
-                });
-                let mut lower = |edge: Edge| -> Result<(), MarchError> {
-                    if this.lower(values, (from, value), &edge, &cost)? {
-                        this.came[edge.node] = edge.direction;
-                    }
-                    Ok(())
-                };
-                match directions {
-                    Some(directions) => directions.iter().try_for_each(|&direction| {
-                        let edge = lattice.stencil()[usize::from(direction)];
-                        lower(Edge { node: from.wrapping_add(edge.node), ..edge })
-                    })?,
-                    None => lattice.neighbours(from).try_for_each(lower)?,
+        self.run(values, width, |this, values, from| {
+            let value = values[from];
+            let directions = onward.after(this.came[from]).filter(|_| {
+                let is_inside = lattice.is_interior(lattice.coordinates(from));
+                value.abs() < limit && is_inside && is_even(from)
+            });
+            let mut lower = |edge: Edge| -> Result<(), MarchError> {
+                if this.lower(values, (from, value), &edge, &cost)? {
+                    this.came[edge.node] = edge.direction;
                 }
+                Ok(())
+            };
+            match directions {
+                Some(directions) => directions.iter().try_for_each(|&direction| {
+                    let edge = lattice.stencil()[usize::from(direction)];
+                    lower(Edge { node: from.wrapping_add(edge.node), ..edge })
+                }),
+                None => lattice.neighbours(from).try_for_each(lower),
             }
-            Ok(())
         })
     }
 
-    /// Relaxes bucket after bucket; returns the number of times that a node was relaxed.
+    /// Relaxes nodes, bucket after bucket; returns how often that was.
     fn run(
         &mut self,
         values: &mut [f64],
         width: f64,
-        relax: impl Fn(&mut Self, &[u32], &mut [f64]) -> Result<(), MarchError>,
+        relax: impl Fn(&mut Self, &mut [f64], usize) -> Result<(), MarchError>,
     ) -> Result<usize, MarchError> {
         let mut relaxed = 0;
         while self.rebase(values, width) {
             for bucket in 0..BUCKETS {
-                while self.take_frontier(bucket, values) {
-                    relaxed += self.frontier.len();
+                while self.take_frontier(bucket) {
                     let frontier = std::mem::take(&mut self.frontier);
-                    relax(self, &frontier, values)?;
+                    for &node in &frontier {
+                        let from = node as usize;
+                        // A node whose value has fallen further was relaxed with a lower bucket.
+                        if self.bucket_of(values[from]) == Some(bucket) {
+                            relaxed += 1;
+                            relax(self, values, from)?;
+                        }
+                    }
                     self.frontier = frontier;
                 }
             }
@@ -222,7 +227,7 @@ impl Relaxation {
     }
 
     /// Empties a bucket into the frontier, in node order; false if the bucket was empty.
-    fn take_frontier(&mut self, bucket: usize, values: &[f64]) -> bool {
+    fn take_frontier(&mut self, bucket: usize) -> bool {
         let mut frontier = std::mem::take(&mut self.frontier);
         frontier.clear();
         // Copied and not swapped, so that every bucket keeps the memory that it needs.
@@ -230,26 +235,8 @@ impl Relaxation {
         let found = !frontier.is_empty();
         frontier.sort_unstable();
         frontier.dedup();
-        // A node whose value has fallen further was relaxed with a lower bucket.
-        frontier.retain(|&node| self.bucket_of(values[node as usize]) == Some(bucket));
         self.frontier = frontier;
         found
-    }
-
-    fn relax_frontier(
-        &mut self,
-        lattice: &Lattice,
-        values: &mut [f64],
-        frontier: &[u32],
-        cost: &impl Fn(usize, &Edge) -> f64,
-    ) -> Result<(), MarchError> {
-        for &node in frontier {
-            let from = (node as usize, values[node as usize]);
-            for edge in lattice.neighbours(node as usize) {
-                self.lower(values, from, &edge, cost)?;
-            }
-        }
-        Ok(())
     }
 
     /// Lowers the value at the end of an edge to what the edge allows; whether it was higher.
