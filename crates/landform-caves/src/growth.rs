@@ -108,7 +108,7 @@ pub struct ChannelGrowth {
 impl ChannelGrowth {
     /// Bytes a voxel of working memory, water with it, where everything is wet: pages of pores, of
     /// contributions and of passages, and the front of an avalanche.
-    pub const BYTES: usize = 20 + 8 + 4 + 1 + 12;
+    pub const BYTES: usize = 20 + 8 + 4 + 1 + 16;
 
     /// A cave in rock of this `porosity`, a share of a voxel's volume.
     ///

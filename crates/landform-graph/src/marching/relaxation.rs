@@ -94,7 +94,8 @@ impl Relaxation {
     /// As [`Relaxation::relax`], with the same result, where many edges are alike: `is_even(node)` says
     /// that all edges of a node cost their length times one rate, and that no edge between two of its
     /// neighbours costs more than its length times that rate. From such a node only nodes that lie
-    /// farther on are looked at, about half.
+    /// farther on are looked at, about half. `width` must be of the size of a few edges: it tells up to
+    /// which values an edge is safe from rounding.
     ///
     /// Takes a byte a node in addition.
     ///
