@@ -31,7 +31,8 @@ pub(super) fn parts(
     subject: &Subject,
     map: ColourMap,
 ) -> Parts {
-    let set = VoxelSet::at_least(lattice.size(), &subject.values, look.at_least);
+    let whole = VoxelSet::at_least(lattice.size(), &subject.values, look.at_least);
+    let set = look.thinned.map_or(whole.clone(), |thinned| thinned.of(&whole));
     let paint = Paint::new(look, lattice, &set, subject, map);
     let mut parts = Parts::default();
     match look.tube_radius_m {

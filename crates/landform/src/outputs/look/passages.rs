@@ -1,5 +1,6 @@
 //! Voxels of at least a value as a body in perspective.
 
+use landform_analysis::voxels::{Rule, Turns, VoxelSet, centreline, plan_sheet};
 use landform_graph::Lattice;
 use landform_sim::parameters::Problem;
 use landform_view::body::{BodyOptions, Cut, Parts, render};
@@ -29,6 +30,28 @@ impl Default for Opening {
     }
 }
 
+/// What thinning leaves of voxels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Thinned {
+    /// Lines through their middle, thinned side by side (thesis, listing A.5).
+    Centreline,
+    /// Lines through their middle, thinned by the number of open sides (thesis, figure A.4 c).
+    ExposedSides,
+    /// A sheet through the middle of passages, thinned from above and below (thesis, section 5.4.2).
+    Sheet,
+}
+
+impl Thinned {
+    /// What is left of a set.
+    pub(super) fn of(self, set: &VoxelSet) -> VoxelSet {
+        match self {
+            Self::Centreline => centreline(set, Turns::Sides, Rule::Supported),
+            Self::ExposedSides => centreline(set, Turns::ExposedSides, Rule::Supported),
+            Self::Sheet => plan_sheet(set),
+        }
+    }
+}
+
 /// The voxels of at least a value as a body in perspective, coloured by height or by another field:
 /// the passages of a cave. Arrows show where water comes in and goes out.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +59,8 @@ impl Default for Opening {
 pub struct Passages {
     /// Voxels of at least this value are drawn.
     pub at_least: f64,
+    /// What of the voxels is drawn: all of them when missing.
+    pub thinned: Option<Thinned>,
     /// Steps of 4-8 subdivision that smooth the surface.
     #[schemars(range(max = 5), extend("x-source" = "thesis A.3"))]
     pub smoothing: usize,
@@ -77,6 +102,7 @@ impl Default for Passages {
     fn default() -> Self {
         Self {
             at_least: 0.5,
+            thinned: None,
             smoothing: 2,
             tube_radius_m: None,
             colours: "batlow".to_owned(),
