@@ -1,7 +1,7 @@
 //! Passages as a map of a cave.
 
 use landform_analysis::caves::CaveNetwork;
-use landform_analysis::voxels::{Rule, Surface, Turns, VoxelSet, centreline, smooth_surface};
+use landform_analysis::voxels::{Surface, VoxelSet, smooth_surface};
 use landform_graph::Lattice;
 use landform_view::body::Body;
 use landform_view::cave_map::{CaveMapOptions, CaveView, draw};
@@ -124,8 +124,7 @@ impl CaveMap {
 
 /// How long the passages are, and how high.
 fn words(set: &VoxelSet, spacing_m: f64) -> Vec<String> {
-    let line = centreline(set, Turns::Sides, Rule::Supported);
-    let Ok(network) = CaveNetwork::of_centreline(&line, spacing_m) else { return Vec::new() };
+    let Ok(network) = CaveNetwork::of_passages(set, spacing_m) else { return Vec::new() };
     let layers = || set.iter().map(|[_, _, layer]| layer);
     let range = layers().max().unwrap_or(0) + 1 - layers().min().unwrap_or(0);
     vec![
