@@ -36,6 +36,11 @@ const LEVELS: &str = "(field: \"level_set\", from: SmoothNoise(mean_m: 5.0))";
 const ON_LEVEL: &str = "(field: \"on_level_set\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.3))";
 const PORES: &str = "(field: \"porosity\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.2))";
 const RISE: &str = "(field: \"uplift\", from: WhiteNoise(mean_m: 1e-3, amplitude_m: 1e-3))";
+const VALLEYS: &str = "(field: \"bed\", from: Dendry(control: Noise(wavelength_m: 900.0), \
+     cell_m: 200.0, shows: Terrain()))";
+const HALLS: &str = "(field: \"porosity\", from: ImplicitVolume(outside: 0.1, inside: 0.4, \
+     of: Rough(of: Union(width_m: 2.0, of: [Ball(center_m: (6.0, 8.0, 4.0), radius_m: 3.0), \
+     Tube(points_m: [(6.0, 8.0, 4.0, 2.0), (20.0, 6.0, 3.0, 1.5)])]))))";
 const TORUS: (&str, &str) = ("FourEight", "(Periodic, Periodic)");
 const TORUS_OF_EIGHT: (&str, &str) = ("Eight", "(Periodic, Periodic)");
 const ISLAND: (&str, &str) = ("FourEight", "(Open, Open)");
@@ -119,6 +124,7 @@ const GOLDEN: &[Case] = &[
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
     case("SlopeAreaErosion()", &[HILLS], PLATE, 0xc78e_4962_62ff_bfaa),
     case("SlopeAreaErosion(pits: Spill)", &[HILLS], PLATE, 0xad69_a2e1_f4c9_0ed2),
+    case("SlopeAreaErosion()", &[VALLEYS], PLATE, 0x67e3_48b5_ff11_3df6),
     case("WaterColumn(sweeps: 3)", &[HILLS, LAKE], PLATE, 0x77c8_c178_8373_962c),
     case("WaterColumn(algorithm: UniformAverage)", &[HILLS, LAKE], TORUS, 0x4c65_decd_baac_1242),
     case(
@@ -148,6 +154,7 @@ const GOLDEN: &[Case] = &[
     case("CaveGrowth(sweeps: 5)", &[PORES], PLATE, 0x4619_abf7_e1dc_0bc8),
     case("CaveGrowth(sweeps: 5, channel_rate_per_m: 0.1)", &[PORES], BLOCK, 0x46d7_50eb_7483_6759),
     case("CaveGrowth(sweeps: 3, motion: Falling)", &[PORES], BLOCK, 0xa546_8256_9933_d2a6),
+    case("CaveGrowth(sweeps: 5)", &[HALLS], BLOCK, 0x997a_4ec9_9298_beaf),
     case("Life()", &[], BELT, 0xbe7f_83e9_99e2_6c6e),
     case("LivingCells()", &[], BELT, 0x3f4e_48ab_0242_4563),
     case("Pipes()", &[HILLS, LAKE], ISLAND, 0x6a15_acb4_bd24_52f0),

@@ -4,7 +4,7 @@ use super::fill::{Grid, fill};
 use super::growth::Growth;
 use super::heights::Hillslope;
 
-/// A [`Dendry`] made ready: its value at any place.
+/// A [`Dendry`](super::Dendry) made ready: its value at any place.
 ///
 /// ```
 /// use std::path::Path;
