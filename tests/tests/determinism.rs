@@ -35,6 +35,12 @@ const SPECKS: &str = "(field: \"land\", from: WhiteNoise(mean_m: 0.5, amplitude_
 const LEVELS: &str = "(field: \"level_set\", from: SmoothNoise(mean_m: 5.0))";
 const ON_LEVEL: &str = "(field: \"on_level_set\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.3))";
 const PORES: &str = "(field: \"porosity\", from: WhiteNoise(mean_m: 0.3, amplitude_m: 0.2))";
+const DENDRITE: &str = "(field: \"bed\", from: Dendrite(endpoints: Random(count: 30), \
+     rounds: (count: 3, cost: 0.3), former_paths: 0.3, refinement: (parts: 3), scale: 9.0))";
+const AGGREGATE: &str =
+    "(field: \"bed\", combine: Add, from: Aggregate(particles: 300, sticking: 0.5, scale: 5.0))";
+const PLANT: &str = "(field: \"bed\", combine: Add, from: LSystem(derivations: 3, scale: 3.0))";
+const SETTLED: &str = "(field: \"arrival\", from: Aggregate(particles: 2000, show: Tree))";
 const RISE: &str = "(field: \"uplift\", from: WhiteNoise(mean_m: 1e-3, amplitude_m: 1e-3))";
 const VALLEYS: &str = "(field: \"bed\", from: Dendry(control: Noise(wavelength_m: 900.0), \
      cell_m: 200.0, shows: Terrain()))";
@@ -117,6 +123,9 @@ const GOLDEN: &[Case] = &[
     ),
     case("Smoothing()", &[SAND, HILLS], TORUS, 0xe6cf_7890_9ecf_a18c),
     case("Smoothing()", &[SAND, HILLS], ISLAND, 0xdaa2_23b5_567a_9555),
+    case("Smoothing()", &[SAND, DENDRITE, AGGREGATE, PLANT], ISLAND, 0x914f_60da_7bbe_c464),
+    case("Aggregation(drifters: 400)", &[SETTLED], PLATE, 0x7a5b_0c47_578a_d12b),
+    case("Aggregation(drifters: 400, sticking: 0.3)", &[SETTLED], BLOCK, 0xd06e_8c24_5287_0a92),
     case("SandLike()", &[SAND], TORUS, 0xb63f_87de_60c5_daa4),
     case("SandLike()", &[SAND], ISLAND, 0x739b_63a3_f864_88c9),
     case("CorrosionLike()", &[HILLS], TORUS, 0x07ae_c067_db3e_bdd2),
@@ -201,6 +210,7 @@ impl Case {
             "ForestFire" => "forest",
             "Pipes" => "water",
             "Trails" => "wear",
+            "Aggregation" => "arrival",
             "SlopeAreaErosion" => "drainage_area",
             "WaterColumn" => "water",
             "Protochannels" | "CaveGrowth" => "porosity",

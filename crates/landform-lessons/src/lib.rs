@@ -7,16 +7,19 @@
 //! | agents at some nodes | [`ForestFire`] | two groups, parity, a derived field |
 //! | values on edges | [`Pipes`] | flows between neighbours, a budget that is checked |
 //! | agents that move | [`Trails`] | claims, state, globals, marks on the ground |
+//! | agents that move | [`Aggregation`] | random walks, in maps and volumes; agents that settle |
 //!
 //! They are processes like any other: they use nothing that a crate of your own could not use.
 //! The chapter "Lessons" of the book walks through them.
 
+mod aggregation;
 mod forest_fire;
 mod life;
 mod living_cells;
 mod pipes;
 mod trails;
 
+pub use aggregation::{Aggregation, AggregationSeed, Arrival, Drifters};
 pub use forest_fire::{Burnt, Fires, ForestFire, Trees};
 pub use life::{Alive, Life, generation, generation_reference};
 pub use living_cells::{Cells, Company, LivingCells};
@@ -32,5 +35,6 @@ pub fn register(registry: &mut Registry) {
         .process::<LivingCells>()
         .process::<ForestFire>()
         .process::<Pipes>()
-        .process::<Trails>();
+        .process::<Trails>()
+        .process::<Aggregation>();
 }

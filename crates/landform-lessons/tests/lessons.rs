@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use landform_graph::{BreadthFirst, Reach};
-use landform_lessons::Walkers;
+use landform_lessons::{Drifters, Walkers};
 use landform_sim::agent::Group;
 use landform_sim::checkpoint::Checkpoint;
 use landform_sim::prelude::*;
@@ -185,6 +185,31 @@ fn walkers_that_follow_trails_share_them() {
     assert!(together > 1.05 * alone, "{alone} without, {together} with attraction");
 }
 
+/// What has settled hangs together, nobody is lost, and particles that rarely settle make it denser.
+#[test]
+fn drifting_particles_make_one_aggregate() {
+    let spread = |process: &str| {
+        let run = run(process, "connectivity: Four", 20_000);
+        let arrival = field(&run, "arrival");
+        let settled: Vec<usize> = (0..arrival.len()).filter(|&node| arrival[node] > 0.0).collect();
+        let group = run.snapshot().world().resource::<Group<Drifters>>();
+        assert_eq!(settled.len() as u64, group.globals + 1);
+        let middle = settled.iter().copied().find(|&node| arrival[node] == 1.0).expect("a seed");
+        let among = |_: usize, edge: &Edge| arrival[edge.node] > 0.0;
+        let mut search = BreadthFirst::new();
+        let found = search.collect(run.lattice(), &[middle], Reach::edges(u32::MAX), among);
+        assert_eq!(found.len(), settled.len());
+        assert_eq!(settled.len(), 151, "all have come");
+        let lattice = run.lattice();
+        let away =
+            |&node: &usize| lattice.position(node).distance_squared(lattice.position(middle));
+        settled.iter().map(away).sum::<f64>() / settled.len() as f64
+    };
+    let sticky = spread("Aggregation(drifters: 150, particles: 150)");
+    let shy = spread("Aggregation(drifters: 150, particles: 150, sticking: 0.05)");
+    assert!(shy < 0.8 * sticky, "{shy} {sticky}");
+}
+
 /// Keeps the checkpoint after one of the iterations.
 struct After(u64, Arc<Mutex<Option<Checkpoint<'static>>>>);
 
@@ -209,6 +234,7 @@ fn a_lesson_that_is_resumed_ends_as_if_nothing_had_happened() {
         ("", "ForestFire(growth: 0.02, lightning: 0.01)", "connectivity: Four", "forest"),
         (lake, "Pipes()", "connectivity: FourEight", "water"),
         ("", "Trails(walkers: 99)", TORUS, "wear"),
+        ("", "Aggregation(drifters: 99, seed: Floor)", "connectivity: Eight", "arrival"),
     ];
     for (initial, process, mesh, name) in lessons {
         let kept = Arc::default();

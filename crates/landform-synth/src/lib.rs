@@ -17,14 +17,18 @@
 //! finite values for all the parameters that they accept, and fields without a seam on
 //! periodic axes.
 
+mod branching;
 mod course;
+mod dendrite;
 mod dendry;
+mod dla;
 mod error;
 pub mod exact;
 mod faulting;
 mod fbm;
 mod fractal;
 mod hills;
+mod lsystem;
 mod mask;
 mod midpoint;
 mod noise;
@@ -38,12 +42,19 @@ mod tree;
 mod uniform;
 mod volume;
 
+pub use branching::{BranchWidth, Branching, Shown, TubeMesh, tubes};
+pub use dendrite::{
+    CheapPlace, Dendrite, DendriteShown, EdgeWeights, EndShape, Endpoints, Grown, Refined, Rounds,
+    WeightBias, WeightTable, came_from, least_costs,
+};
 pub use dendry::{Dendry, DendryFunction, DendryTerrain, DendryView};
+pub use dla::{Aggregate, AggregateOrigin, Aggregated, Growth, Origin, aggregate};
 pub use error::SynthError;
 pub use faulting::{FaultProfile, FaultTrace, Faulting};
 pub use fbm::{AmplitudeLaw, SpectralFbm};
 pub use fractal::{Basis, Cascade, FractalNoise, OctaveShape, Warp};
 pub use hills::{Cone, GaussianHill};
+pub use lsystem::{LSystem, Rule, Turtle, rewrite, walk};
 pub use mask::{KnownFractal, Mask, MaskSource, RasterGround};
 pub use midpoint::{MidpointDisplacement, Subdivision};
 pub use noise::{Distribution, WhiteNoise};

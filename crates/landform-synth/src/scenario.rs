@@ -5,9 +5,9 @@ use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 
 use crate::{
-    Cone, ConstructionTree, Dendry, Faulting, FractalNoise, GaussianHill, Generator,
-    ImplicitVolume, Mask, MidpointDisplacement, Ramp, Ridge, Sinusoid, SmoothNoise, SpectralFbm,
-    SynthError, Uniform, WhiteNoise,
+    Aggregate, Cone, ConstructionTree, Dendrite, Dendry, Faulting, FractalNoise, GaussianHill,
+    Generator, ImplicitVolume, LSystem, Mask, MidpointDisplacement, Ramp, Ridge, Sinusoid,
+    SmoothNoise, SpectralFbm, SynthError, Uniform, WhiteNoise,
 };
 
 /// Makes scenarios know the generators by their names.
@@ -26,7 +26,7 @@ macro_rules! scenario_names {
             registry$(.initial::<$generator>())*;
             // These read files, for which they want the folder of the scenario.
             registry.initial::<ConstructionTree>().initial::<Mask>().initial::<Dendry>();
-            registry.initial::<ImplicitVolume>();
+            registry.initial::<ImplicitVolume>().initial::<Dendrite>();
         }
     };
 }
@@ -43,7 +43,9 @@ scenario_names!(
     Sinusoid,
     Ridge,
     Cone,
-    GaussianHill
+    GaussianHill,
+    Aggregate,
+    LSystem
 );
 
 /// A refusal by a generator, at the parameter it is about.

@@ -21,6 +21,9 @@ fn parse(name: &str, parameters: Value) -> Result<Box<dyn Generator>, serde_json
         }
         "Faulting" => Box::new(serde_json::from_value::<Faulting>(parameters)?),
         "ConstructionTree" => Box::new(serde_json::from_value::<ConstructionTree>(parameters)?),
+        "Dendrite" => Box::new(serde_json::from_value::<Dendrite>(parameters)?),
+        "Aggregate" => Box::new(serde_json::from_value::<Aggregate>(parameters)?),
+        "LSystem" => Box::new(serde_json::from_value::<LSystem>(parameters)?),
         "Dendry" => Box::new(serde_json::from_value::<Dendry>(parameters)?),
         "ImplicitVolume" => Box::new(serde_json::from_value::<ImplicitVolume>(parameters)?),
         "Mask" => Box::new(serde_json::from_value::<Mask>(parameters)?),
@@ -44,6 +47,9 @@ fn generators() -> Vec<(&'static str, schemars::Schema)> {
         ("MidpointDisplacement", schemars::schema_for!(MidpointDisplacement)),
         ("Faulting", schemars::schema_for!(Faulting)),
         ("ConstructionTree", schemars::schema_for!(ConstructionTree)),
+        ("Dendrite", schemars::schema_for!(Dendrite)),
+        ("Aggregate", schemars::schema_for!(Aggregate)),
+        ("LSystem", schemars::schema_for!(LSystem)),
         ("Dendry", schemars::schema_for!(Dendry)),
         ("ImplicitVolume", schemars::schema_for!(ImplicitVolume)),
         ("Mask", schemars::schema_for!(Mask)),
@@ -140,6 +146,7 @@ fn only_random_fields_depend_on_the_seed() {
             "Ridge",
             "ConstructionTree",
             "ImplicitVolume",
+            "LSystem",
             "Mask",
         ];
         assert_eq!(first == second, even.contains(&name), "{name}");
@@ -167,6 +174,9 @@ fn accepted_parameters_give_finite_fields() {
         "Dendry",
         "ImplicitVolume",
         "Mask",
+        // These refuse too small particles and too long strings.
+        "Aggregate",
+        "LSystem",
     ];
     let mut fields = 0;
     for (name, schema) in generators() {

@@ -43,6 +43,8 @@ pub fn registry() -> Registry {
         .output::<outputs::AgentMap>()
         .output::<outputs::AgentTable>()
         .output::<outputs::LevelLines>()
+        .output::<outputs::BranchLines>()
+        .output::<outputs::BranchMesh>()
         .output::<outputs::RiverLines>()
         .output::<outputs::LakeOutlines>()
         .output::<outputs::CaptureTable>()

@@ -132,11 +132,15 @@ pub(super) fn raster_of(snapshot: &Snapshot<'_>, mut values: Vec<f64>) -> Raster
 
 /// What goes with the values of a field into a file.
 pub(super) fn metadata(snapshot: &Snapshot<'_>, entry: &FieldEntry) -> Metadata {
+    let (field, unit) = (Some(entry.name.to_owned()), Some(entry.unit.to_owned()));
+    Metadata { field, unit, ..run_metadata(snapshot) }
+}
+
+/// What goes into a file that shows no field.
+pub(super) fn run_metadata(snapshot: &Snapshot<'_>) -> Metadata {
     let clock = snapshot.clock();
     let mut metadata = Metadata {
         title: Some(snapshot.title().to_owned()),
-        field: Some(entry.name.to_owned()),
-        unit: Some(entry.unit.to_owned()),
         spacing_m: Some(snapshot.lattice().spacing()),
         seed: Some(clock.seed),
         ..Metadata::default()
