@@ -64,7 +64,7 @@ fn path_field(effort: Effort, lattice: &Lattice, name: &str) {
     pairs(effort.rounds(9), ours, theirs).print(
         &format!("path field, {name}"),
         "a heap",
-        if lattice.depth() == 1 { "70 ns" } else { "" },
+        if lattice.directions() == 4 { "70 ns" } else { "" },
     );
 }
 
