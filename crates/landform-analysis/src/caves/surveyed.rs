@@ -10,9 +10,9 @@ impl CaveNetwork {
     ///
     /// Thinning keeps a line to every bump of a wall, and makes several junctions where wide passages
     /// meet. A surveyor goes on where there is a passage, and sets one station in a crossing. So a
-    /// branch with an open end goes if it is no longer than the passage that it leaves is
-    /// [wide](passage_width); and two junctions that are no farther apart than that become one. The
-    /// shortest goes first, as each may make one way of two.
+    /// branch with an open end goes if it is no longer than the passage that it leaves is wide; and two
+    /// junctions that are no farther apart than that become one. The shortest goes first, as each may
+    /// make one way of two.
     ///
     /// Positions are those of [`CaveNetwork::of_centreline`].
     ///
