@@ -124,10 +124,12 @@ fn part(text: &str) -> Option<Part> {
     }
 }
 
-/// Where `fig_5_10` and `table_4_1` stand: chapter, number, and the rest.
+/// Where `fig_5_10` and `table_4_1` stand: chapter, number, figures before tables, and the rest.
 fn place(name: &str) -> Vec<Part> {
     let (kind, number) = name.split_once('_').unwrap_or(("", name));
-    number.split('_').chain([kind]).filter_map(part).collect()
+    let mut parts: Vec<&str> = number.split('_').collect();
+    parts.insert(parts.len().min(2), kind);
+    parts.into_iter().filter_map(part).collect()
 }
 
 #[cfg(test)]
@@ -138,7 +140,7 @@ mod tests {
     fn figures_stand_in_the_order_of_the_thesis() {
         let mut names = ["fig_b_4", "fig_5_10", "table_4_1", "fig_5_9", "fig_4_1_b", "fig_4_1"];
         names.sort_by_key(|name| place(name));
-        let sorted = ["fig_4_1", "table_4_1", "fig_4_1_b", "fig_5_9", "fig_5_10", "fig_b_4"];
+        let sorted = ["fig_4_1", "fig_4_1_b", "table_4_1", "fig_5_9", "fig_5_10", "fig_b_4"];
         assert_eq!(names, sorted);
         assert_eq!(place("fig_b_4")[0], part("B").unwrap());
         assert_ne!(place("fig_5_9")[0], part("4").unwrap());
