@@ -274,6 +274,9 @@ fn data_are_brought_by_the_user_or_absent() {
     assert_eq!(figure["data"], Value::from(vec!["data/hills.tif"]));
     assert_eq!(figure["pictures"], Value::from(vec!["d/figure_0_2.png", "d/hills/analysis.png"]));
     assert!(scratch.path("with/d/hills/analysis.png").is_file());
+    // What was absent is looked for again.
+    run("-o without --resume --data data").good();
+    assert_eq!(verdicts(&report("without")), ["reproduced", "printed", "absent"]);
     // The same number as `landform analyze` gives.
     let analysis = Program::within(scratch.folder()).line("analyze --json data/hills.tif").run();
     let analysis: Value = serde_json::from_str(&analysis.good()).expect("JSON");

@@ -46,13 +46,13 @@ impl Work<'_> {
     /// A seed's numbers do not depend on what runs beside it, nor on what was recorded before.
     ///
     /// # Errors
-    /// The message of the first of the jobs that failed, in their order.
+    /// The message of the first job that failed; the others are ended.
     pub fn reproduce(&self, record: Record) -> Result<Vec<FigureReport>, String> {
         let jobs: Vec<Job> = self.jobs(&record);
         let data: Vec<OnceLock<Result<Data<'_>, String>>> =
             self.entries.iter().map(|_| OnceLock::new()).collect();
         let record = Mutex::new(record);
-        let failures: Mutex<Vec<(usize, String)>> = Mutex::default();
+        let failure: Mutex<Option<String>> = Mutex::default();
         let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
         let worker = || loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
@@ -67,8 +67,8 @@ impl Work<'_> {
                 record.write(self.output)
             });
             if let Err(message) = kept {
+                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
                 failed.store(true, Ordering::Relaxed);
-                failures.lock().unwrap_or_else(PoisonError::into_inner).push((number, message));
             }
         };
         std::thread::scope(|scope| {
@@ -76,8 +76,7 @@ impl Work<'_> {
                 scope.spawn(worker);
             }
         });
-        let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, message)) = failures.into_iter().min_by_key(|(number, _)| *number) {
+        if let Some(message) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(message);
         }
         let record = record.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -100,14 +99,18 @@ impl Work<'_> {
         conclude(&entry.figure, &entry.name, &seeds, data, &self.output.join(&entry.name))
     }
 
-    /// The seeds that are not recorded.
+    /// The seeds that are not recorded, or lack numbers of data that may be there now.
     fn jobs(&self, record: &Record) -> Vec<Job> {
         let all = self
             .entries
             .iter()
             .enumerate()
             .flat_map(|(entry, of)| (1..=of.figure.seeds).map(move |seed| Job { entry, seed }));
-        all.filter(|job| record.find(&self.entries[job.entry], job.seed).is_none()).collect()
+        let is_whole = |numbers: SeedNumbers| {
+            self.data.is_none() || numbers.values.iter().all(Option::is_some)
+        };
+        all.filter(|job| !record.find(&self.entries[job.entry], job.seed).is_some_and(is_whole))
+            .collect()
     }
 
     fn run<'e>(
