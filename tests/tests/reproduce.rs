@@ -191,16 +191,31 @@ fn a_chapter_is_reproduced_as_one() {
         let targets = TARGETS.replace("table 0.1", id).replace("small dunes", "dunes < hills");
         scratch.write(&format!("scenarios/thesis/{file}.targets.ron"), targets);
     }
+    // Another source, with a figure of the same name.
+    fs::create_dir_all(scratch.path("scenarios/paper")).expect("folders");
+    scratch.write("scenarios/paper/small.ron", SMALL);
+    let paper = TARGETS.replace("table 0.1", "paper 2");
+    scratch.write("scenarios/paper/fig_3_2.targets.ron", paper);
     let run = |line: &str| Program::within(scratch.folder()).line("reproduce").line(line).run();
     let told = run("--chapter 3 --quick -o o").good();
     let [second, tenth] = ["figure 3.2", "figure 3.10"].map(|id| told.find(id).expect(id));
     assert!(second < tenth && !told.contains("B:"), "{told}");
     let page = fs::read_to_string(scratch.path("o/report.html")).expect("a page");
-    for part in ["figure 3.2: dunes &lt; hills", "data:image/png;base64,iVBOR", "missed 2"] {
+    for part in [
+        "figure 3.2: dunes &lt; hills",
+        "src=\"data:image/",
+        "missed 2",
+        "<h2 class=\"part\">Chapter 3</h2>",
+        "slab_m: 3.0",
+        "<circle",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     assert!(!page.contains("http"), "needs nothing else");
-    assert!(run("--all --quick -o all").good().contains("B: dunes"));
+    let told = run("--all --quick -o all").good();
+    let [appendix, paper] = ["B: dunes", "paper 2: small"].map(|id| told.find(id).expect(id));
+    assert!(appendix < paper, "{told}");
+    assert!(scratch.path("all/paper/fig_3_2").is_dir() && scratch.path("all/fig_3_2").is_dir());
     assert!(run("--chapter 7 -o none").refused().contains("no target files of chapter 7"));
     for line in ["", "--quick --seeds 2 fig_3_2", "--jobs 0 fig_3_2", "--all --chapter 3"] {
         assert_eq!(run(line).status, Some(2), "{line}");

@@ -67,7 +67,7 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
     let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: &reports };
     let [json, html] = ["report.json", "report.html"].map(|name| folder.join(name));
     folder::write_json(&json, &reproduction).map_err(Failure::Failed)?;
-    let page = page(&reports, &folder).map_err(Failure::Failed)?;
+    let page = page(&entries, &reports, &folder).map_err(Failure::Failed)?;
     folder::write_text(&html, &page).map_err(Failure::Failed)?;
     talk::say(&format!("report {}\nreport {}\n", json.display(), html.display()))
 }
@@ -92,7 +92,7 @@ fn entries(
     let mut entries: Vec<Entry> = Vec::with_capacity(paths.len());
     for path in paths {
         let seeds = if arguments.quick { Some(1) } else { arguments.seeds };
-        let entry = Entry::read(&path, seeds, registry, limits)?;
+        let entry = Entry::read(&path, thesis, seeds, registry, limits)?;
         if let Some(other) = entries.iter().find(|other| other.name == entry.name) {
             let (name, base) = (&entry.name, other.base.display());
             return Err(format!("two target files are called {name}, the first in {base}"));

@@ -15,24 +15,42 @@ const ENDING: &str = ".targets.ron";
 /// A figure with where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of its file without the ending: `fig_5_9`.
+    /// Name of its file without the ending, with the folder of another source: `fig_5_9`,
+    /// `dendry/table_1`.
     pub name: String,
+    /// What it is part of: `Chapter 5`, `Appendix B`, or another source.
+    pub part: String,
     /// Folder of the file, which its scenarios are relative to.
     pub base: PathBuf,
     /// What the file says.
     pub figure: Figure,
+    /// Its scenarios, each once, in the order of the runs.
+    pub scenarios: Vec<ScenarioText>,
     /// The texts of the file and of its scenarios: all that its numbers follow from but data.
+    pub text: String,
+}
+
+/// A scenario of a figure, for its readers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScenarioText {
+    /// Its file, relative to the target file.
+    pub path: PathBuf,
+    /// What it says of itself.
+    pub description: String,
+    /// All of the file.
     pub text: String,
 }
 
 impl Entry {
     /// Reads a target file, to be run with so many `seeds` instead of its own, and checks it with its
-    /// scenarios.
+    /// scenarios. Figures of the thesis lie in the folder `thesis`, those of other sources in folders
+    /// beside it.
     ///
     /// # Errors
     /// A message that says where the file is wrong and what was expected.
     pub fn read(
         path: &Path,
+        thesis: &Path,
         seeds: Option<u64>,
         registry: &Arc<Registry>,
         limits: Limits,
@@ -41,14 +59,40 @@ impl Entry {
         let mut figure = parse(path, &text)?;
         figure.seeds = seeds.unwrap_or(figure.seeds);
         let base = path.parent().unwrap_or(Path::new("")).to_owned();
-        check(&figure, &base, registry, limits)
-            .map_err(|why| format!("{}: {}", path.display(), why.trim_start_matches("error: ")))?;
-        for run in &figure.runs {
-            text += &read(&base.join(&run.scenario))?;
+        let descriptions = check(&figure, &base, registry, limits)
+            .map_err(|why| format!("{}: {why}", path.display()))?;
+        let mut scenarios: Vec<ScenarioText> = Vec::new();
+        for (run, description) in figure.runs.iter().zip(descriptions) {
+            let scenario = read(&base.join(&run.scenario))?;
+            text += &scenario;
+            if scenarios.iter().all(|other| other.path != run.scenario) {
+                let path = run.scenario.clone();
+                scenarios.push(ScenarioText { path, description, text: scenario });
+            }
         }
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let name = file.strip_suffix(ENDING).unwrap_or(&file).to_owned();
-        Ok(Self { name, base, figure, text })
+        let file = file.strip_suffix(ENDING).unwrap_or(&file).to_owned();
+        let (name, part) = match folder_beside(thesis, &base) {
+            Some(folder) => (format!("{folder}/{file}"), folder),
+            None if base == thesis => (file.clone(), chapter_of(&file)),
+            None => (file, base.display().to_string()),
+        };
+        Ok(Self { name, part, base, figure, scenarios, text })
+    }
+}
+
+/// The name of `folder` if it lies beside that of the thesis.
+fn folder_beside(thesis: &Path, folder: &Path) -> Option<String> {
+    let is_beside = folder != thesis && folder.parent() == thesis.parent();
+    folder.file_name().filter(|_| is_beside).map(|name| name.to_string_lossy().into_owned())
+}
+
+/// The chapter or the appendix that a target file of the thesis belongs to.
+fn chapter_of(name: &str) -> String {
+    match place(name).first() {
+        Some(Part::Number(number)) => format!("Chapter {number}"),
+        Some(Part::Word(word)) => format!("Appendix {}", word.to_uppercase()),
+        None => "Thesis".to_owned(),
     }
 }
 
@@ -81,32 +125,55 @@ pub fn find(name: &str, folder: &Path) -> Result<PathBuf, String> {
         .ok_or_else(|| format!("there is no target file {name}, nor {}", named.display()))
 }
 
-/// All target files of a folder, or those of a chapter (`4`, `B`), in the order of the thesis.
+/// The target files of a chapter of the thesis (`4`, `B`), or all: those of the thesis in its order,
+/// then those of the folders beside `thesis`.
 ///
 /// # Errors
-/// A message when the folder cannot be read or has none of these.
-pub fn all(folder: &Path, chapter: Option<&str>) -> Result<Vec<PathBuf>, String> {
-    let shown = folder.display();
-    let entries = std::fs::read_dir(folder).map_err(|error| {
-        format!("cannot read {shown}: {error}; run this where the folder of scenarios lies")
-    })?;
+/// A message when a folder cannot be read or there are no such files.
+pub fn all(thesis: &Path, chapter: Option<&str>) -> Result<Vec<PathBuf>, String> {
+    let shown = thesis.display();
+    let mut files = of_folder(thesis, chapter)?;
+    match (files.is_empty(), chapter) {
+        (true, Some(chapter)) => Err(format!("{shown} has no target files of chapter {chapter}")),
+        (true, None) => Err(format!("{shown} has no target files (NAME{ENDING})")),
+        (false, Some(_)) => Ok(files),
+        (false, None) => {
+            let beside = thesis.parent().unwrap_or(Path::new(""));
+            let mut folders: Vec<PathBuf> = list(beside)?;
+            folders.retain(|path| path.is_dir() && path != thesis);
+            folders.sort();
+            for folder in folders {
+                files.extend(of_folder(&folder, None)?);
+            }
+            Ok(files)
+        }
+    }
+}
+
+/// The target files of a folder, or those of a chapter, by the numbers in their names.
+fn of_folder(folder: &Path, chapter: Option<&str>) -> Result<Vec<PathBuf>, String> {
     let mut files: Vec<(Vec<Part>, PathBuf)> = Vec::new();
-    for entry in entries.flatten() {
-        let file = entry.file_name().to_string_lossy().into_owned();
+    for path in list(folder)? {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
         if let Some(name) = file.strip_suffix(ENDING) {
             let place = place(name);
             let is_asked = chapter.is_none_or(|chapter| place.first() == part(chapter).as_ref());
             if is_asked {
-                files.push((place, entry.path()));
+                files.push((place, path.clone()));
             }
         }
     }
     files.sort();
-    match (files.is_empty(), chapter) {
-        (false, _) => Ok(files.into_iter().map(|(_, path)| path).collect()),
-        (true, Some(chapter)) => Err(format!("{shown} has no target files of chapter {chapter}")),
-        (true, None) => Err(format!("{shown} has no target files (NAME{ENDING})")),
-    }
+    Ok(files.into_iter().map(|(_, path)| path).collect())
+}
+
+/// What lies in a folder, in no order.
+fn list(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|error| {
+        let folder = folder.display();
+        format!("cannot read {folder}: {error}; run this where the folder of scenarios lies")
+    })?;
+    Ok(entries.flatten().map(|entry| entry.path()).collect())
 }
 
 /// A part of the number of a figure: numbers before letters, as chapters before appendices.

@@ -11,7 +11,8 @@ use super::measure::INITIAL;
 use super::{Figure, RunEntry, Source};
 
 /// Checks that every scenario of `figure` can run and that every number is taken from one of
-/// its runs and stages. Files of data may be absent. `base` is the folder of the target file.
+/// its runs and stages, and returns what the scenario of each run says of itself. Files of data may be
+/// absent. `base` is the folder of the target file.
 ///
 /// # Errors
 /// A message that names the run or the target, what is wrong with it and what there is.
@@ -20,10 +21,15 @@ pub fn check(
     base: &Path,
     registry: &Arc<Registry>,
     limits: Limits,
-) -> Result<(), String> {
+) -> Result<Vec<String>, String> {
     let mut stages = Vec::with_capacity(figure.runs.len());
+    let mut descriptions = Vec::with_capacity(figure.runs.len());
     for run in &figure.runs {
-        stages.push((run.name.as_str(), check_run(run, base, registry, limits)?));
+        let found = check_run(run, base, registry, limits);
+        let (of_run, description) =
+            found.map_err(|why| why.trim_start_matches("error: ").to_owned())?;
+        stages.push((run.name.as_str(), of_run));
+        descriptions.push(description);
     }
     for entry in &figure.analyses {
         check_name(&entry.name)?;
@@ -44,27 +50,28 @@ pub fn check(
     }
     match figure.seeds {
         0 => Err(format!("{}: zero seeds; expected at least one", figure.id)),
-        _ => Ok(()),
+        _ => Ok(descriptions),
     }
 }
 
-/// Checks a run and returns the names of its stages.
+/// Checks a run and returns the names of its stages, and what its scenario says of itself.
 fn check_run(
     run: &RunEntry,
     base: &Path,
     registry: &Arc<Registry>,
     limits: Limits,
-) -> Result<Vec<String>, String> {
+) -> Result<(Vec<String>, String), String> {
     check_name(&run.name)?;
-    let mut stages = Vec::new();
+    let (mut stages, mut description) = (Vec::new(), String::new());
     for copy in run.copies(1)? {
         let source = copy.open(&base.join(&run.scenario))?;
         let scenario = source.parse(registry)?;
         scenario.check(source.folder(), limits).map_err(|problem| source.render(&problem))?;
         stages = scenario.stages.into_iter().map(|stage| stage.name).collect();
+        description = scenario.description;
     }
     stages.push(INITIAL.to_owned());
-    Ok(stages)
+    Ok((stages, description))
 }
 
 /// Refuses a name that can be no folder.
