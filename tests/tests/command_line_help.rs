@@ -120,11 +120,12 @@ fn what_is_wrong_with_a_scenario_can_be_read_by_an_editor() {
     let bad = &list[0];
     let line = SMALL.lines().position(|line| line.contains("slab_m")).expect("a line");
     let column = SMALL.lines().nth(line).and_then(|line| line.find("slab_m")).expect("a column");
-    assert_eq!(bad["file"], "bad.ron");
+    assert_eq!((&bad["file"], &bad["code"]), (&"bad.ron".into(), &"L0102".into()));
     assert_eq!(bad["start"], serde_json::json!([line + 1, column + 1]));
     assert_eq!(bad["end"], serde_json::json!([line + 1, column + 7]));
     assert_eq!(bad["help"], "did you mean \"slab_m\"?");
     assert_eq!((&list[1]["file"], &list[1]["start"]), (&Value::from("none.ron"), &Value::Null));
+    assert_eq!(list[1]["code"], "L0107");
 }
 
 #[test]
@@ -133,8 +134,10 @@ fn help_has_examples_and_every_command_is_explained() {
     assert!(help.contains("Examples:\n  landform run scenarios/"), "{help}");
     let commands = help.split("Commands:").nth(1).and_then(|rest| rest.split("\n\n").next());
     let commands = listed(commands.expect("a list of commands"));
-    let expected =
-        ["run", "check", "list", "describe", "schema", "export", "view", "analyze", "sweep"];
+    let expected = [
+        "run", "check", "list", "describe", "explain", "schema", "export", "view", "analyze",
+        "sweep",
+    ];
     for command in expected {
         assert!(commands.contains(&command), "{command} in {commands:?}");
     }

@@ -87,6 +87,6 @@ fn the_program_survives_any_damage() {
         let ended = Program::within(scratch.folder()).line("check damaged.ron").run();
         assert!(matches!(ended.status, Some(0 | 2)), "{ended:?}");
         let refused = ended.status == Some(2);
-        assert_eq!(refused, ended.stderr.starts_with("error: "), "{ended:?}");
+        assert_eq!(refused, ended.stderr.starts_with("error[L"), "{ended:?}");
     }
 }

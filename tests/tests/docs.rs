@@ -102,12 +102,13 @@ mod commands {
     use std::process::{Command, Stdio};
 
     /// Commands that finish at once or can be cut; `reproduce` runs for minutes.
-    const RUN: [&str; 11] = [
+    const RUN: [&str; 12] = [
         "analyze",
         "run",
         "check",
         "list",
         "describe",
+        "explain",
         "schema",
         "export",
         "view",

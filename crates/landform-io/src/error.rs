@@ -149,6 +149,20 @@ impl Fault {
 }
 
 impl IoError {
+    /// Its number in the book: `L0401` to `L0404` for what is read, `L1002`, `L1003` and `L1006`
+    /// for what is written.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::System { doing: "write", .. } => "L1002",
+            Self::System { .. } => "L0401",
+            Self::Content { .. } => "L0402",
+            Self::TooLarge { .. } => "L0403",
+            Self::UnknownFormat { .. } => "L0404",
+            Self::Exists { .. } => "L1003",
+            Self::Unwritable { .. } => "L1006",
+        }
+    }
+
     /// A refusal by the system, with advice that fits its kind.
     pub fn system(path: &Path, doing: &'static str, source: io::Error) -> Self {
         let advice = match source.kind() {

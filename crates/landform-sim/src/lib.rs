@@ -19,6 +19,7 @@
 pub mod agent;
 pub mod checkpoint;
 pub mod clock;
+pub mod code;
 pub mod domain;
 pub mod fault;
 pub mod field;

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::code::Code;
 use crate::metric::Series;
 use crate::parameters::Problem;
 
@@ -115,7 +116,9 @@ impl Stop {
 
     /// Refuses rules that can never stop a stage or stop it before it does anything.
     pub(crate) fn check(&self, ends: &[u64]) -> Result<(), Problem> {
-        let refuse = |message: &str, expected: &str| Err(Problem::new("stop", message, expected));
+        let refuse = |message: &str, expected: &str| {
+            Err(Problem::new("stop", message, expected).code(Code::Never))
+        };
         match self {
             Self::Finished if ends.is_empty() => refuse(
                 "the stage never ends: none of its processes has an end of its own",

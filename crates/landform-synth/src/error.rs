@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
 use landform_graph::Lattice;
+use landform_sim::code::Code;
 use thiserror::Error;
 
 /// Largest length in metres that a parameter may have: far beyond any landform, and small
@@ -97,6 +98,19 @@ impl SynthError {
                 Self::Within { path: format!("{path}.{inner}"), problem }
             }
             problem => Self::Within { path: path.to_owned(), problem: Box::new(problem) },
+        }
+    }
+
+    /// Its number.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::OutOfRange { .. } => Code::OutOfRange,
+            Self::Volume { .. }
+            | Self::DoesNotClose { .. }
+            | Self::CoarseShape { .. }
+            | Self::Unusable { .. }
+            | Self::TooLarge { .. } => Code::Unsuitable,
+            Self::Within { problem, .. } => problem.code(),
         }
     }
 

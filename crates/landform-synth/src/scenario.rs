@@ -50,5 +50,5 @@ scenario_names!(
 
 /// A refusal by a generator, at the parameter it is about.
 pub(crate) fn refusal(error: SynthError) -> Problem {
-    Problem::new(error.parameter(), error.to_string(), "")
+    Problem::new(error.parameter(), error.to_string(), "").code(error.code())
 }

@@ -26,6 +26,7 @@
 //! The book in `docs/` has a tutorial, a page for each process and a chapter on writing one.
 
 pub mod analyze;
+pub mod explain;
 pub mod inputs;
 pub mod metrics;
 pub mod outputs;

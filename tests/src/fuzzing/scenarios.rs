@@ -80,7 +80,7 @@ fn read(bytes: &[u8]) -> Option<(ScenarioSource, Scenario)> {
 
 /// Every refusal is a message of a few lines, for each thing that is wrong.
 fn good_message(message: &str) {
-    assert!(message.starts_with("error: "), "{message}");
+    assert!(message.starts_with("error[L"), "{message}");
     assert!(message.len() < 20_000, "{} bytes:\n{message:.3000}", message.len());
 }
 

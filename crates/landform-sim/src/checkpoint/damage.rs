@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::code::Code;
+
 /// Why a checkpoint cannot be resumed from.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -50,4 +52,16 @@ pub enum Damage {
         /// As it is in this run.
         expected: String,
     },
+}
+
+impl Damage {
+    /// Its number.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Missing { .. } | Self::Kind { .. } | Self::Length { .. } | Self::Value { .. } => {
+                Code::DamagedCheckpoint
+            }
+            Self::Foreign { .. } => Code::OtherScenario,
+        }
+    }
 }

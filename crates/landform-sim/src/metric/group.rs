@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Metric, Statistic, with_unit};
 use crate::agent::{GroupSnapshot, GroupUse};
+use crate::code::Code;
 use crate::parameters::Problem;
 use crate::snapshot::Snapshot;
 
@@ -56,6 +57,7 @@ impl Metric for AgentStatistic {
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let unknown = |error: crate::agent::UnknownQuantity| {
             Problem::new("quantity", error.to_string(), "a quantity of the group")
+                .code(Code::NotInRun)
         };
         let group = group(snapshot, &self.group)?;
         let (_, unit) = group.listing().quantity(&self.quantity).map_err(unknown)?;
@@ -68,7 +70,7 @@ impl Metric for AgentStatistic {
 
 fn group<'a>(snapshot: &Snapshot<'a>, name: &str) -> Result<GroupSnapshot<'a>, Problem> {
     let unknown = |error: crate::agent::UnknownGroup| {
-        Problem::new("group", error.to_string(), "a group of the run")
+        Problem::new("group", error.to_string(), "a group of the run").code(Code::NotInRun)
     };
     snapshot.group(name).map_err(unknown)
 }

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::checkpoint;
+use crate::code::Code;
 use crate::parameters::Problem;
 
 /// What every run leaves under these names.
@@ -15,7 +16,8 @@ const TAKEN: [&str; 3] = ["series.csv", "report.json", "scenario.ron"];
 /// The [`Problem`] is one of the parameter `file`.
 pub fn check_file(file: &Path, extensions: &[&str]) -> Result<(), Problem> {
     let refuse = |why: &str, expected: &str| {
-        Err(Problem::new("file", format!("`{}` {why}", file.display()), expected))
+        let message = format!("`{}` {why}", file.display());
+        Err(Problem::new("file", message, expected).code(Code::OutputFile))
     };
     let mut parts = file.components();
     if file.file_name().is_none() || !parts.all(|part| matches!(part, Component::Normal(_))) {
@@ -48,7 +50,8 @@ pub fn below(folder: &Path, file: &Path) -> Result<PathBuf, Problem> {
     let path = folder.join(file);
     if let Some(parent) = path.parent() {
         std::fs::create_dir_all(parent).map_err(|error| {
-            Problem::new("file", format!("cannot make {}: {error}", parent.display()), "")
+            let message = format!("cannot make {}: {error}", parent.display());
+            Problem::new("file", message, "").code(Code::Unwritable)
         })?;
     }
     Ok(path)

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Moment;
+use crate::code::Code;
 use crate::parameters::Problem;
 use crate::snapshot::Snapshot;
 
@@ -112,7 +113,9 @@ impl When {
     /// # Errors
     /// The [`Problem`] is one of the parameter `when`.
     pub fn check(&self) -> Result<(), Problem> {
-        let refuse = |message: &str, expected: &str| Err(Problem::new("when", message, expected));
+        let refuse = |message: &str, expected: &str| {
+            Err(Problem::new("when", message, expected).code(Code::Never))
+        };
         match self {
             Self::Every(0) => refuse("it is due every 0 iterations", "at least 1"),
             Self::Any(several) if several.is_empty() => {

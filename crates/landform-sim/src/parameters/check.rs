@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::schema::{allows, alternatives, range, schema_of, variant};
 use super::{Parameters, Problem};
+use crate::code::Code;
 
 /// Finds values outside the ranges of their definition, and numbers that are not finite.
 pub(crate) fn check<P: Parameters>(parameters: &P) -> Vec<Problem> {
@@ -27,20 +28,20 @@ impl<'a> Search<'a> {
             // JSON has no notation for infinities and NaN: serde_json turns them into null.
             Value::Null if allows(schema, "number") && !allows(schema, "null") => {
                 let message = "the number is not finite";
-                self.problems.push(Problem::new(path, message, "a finite number"));
+                self.refuse(Problem::new(path, message, "a finite number"));
             }
             Value::Number(number) => {
                 let number = number.as_f64().unwrap_or(f64::NAN);
                 if !in_range(schema, number) {
                     let message = format!("{number} is out of range");
-                    self.problems.push(Problem::new(path, message, range(schema)));
+                    self.refuse(Problem::new(path, message, range(schema)));
                 }
             }
             Value::Array(items) => {
                 let least = schema["minItems"].as_u64().unwrap_or(0) as usize;
                 if items.len() < least {
                     let message = format!("the list has {} entries", items.len());
-                    self.problems.push(Problem::new(&path, message, format!("at least {least}")));
+                    self.refuse(Problem::new(&path, message, format!("at least {least}")));
                 }
                 for (index, item) in items.iter().enumerate() {
                     let inner = schema.get("items").or(schema["prefixItems"].get(index));
@@ -51,6 +52,10 @@ impl<'a> Search<'a> {
             Value::Object(fields) => self.object(schema, fields, path),
             _ => {}
         }
+    }
+
+    fn refuse(&mut self, problem: Problem) {
+        self.problems.push(problem.code(Code::OutOfRange));
     }
 
     fn object(&mut self, schema: &'a Value, fields: &serde_json::Map<String, Value>, path: String) {

@@ -21,6 +21,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::code::Code;
+
 /// A struct of parameters. Derive `Clone, Serialize, Deserialize, JsonSchema`, implement
 /// `Default`, and put `#[serde(deny_unknown_fields, default)]` on it.
 pub trait Parameters:
@@ -36,6 +38,8 @@ impl<T> Parameters for T where
 /// Why a parameter is refused.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Problem {
+    /// Its number; [`Code::Unsuitable`] unless said otherwise.
+    pub code: Code,
     /// Path of the parameter below the struct it belongs to, `winds[0].weight`; empty for the whole.
     pub parameter: String,
     /// What is wrong, with the value.
@@ -47,18 +51,26 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A problem with one parameter.
+    /// A problem with one parameter: a value that does not suit.
     pub fn new(
         parameter: impl Into<String>,
         message: impl Into<String>,
         expected: impl Into<String>,
     ) -> Self {
         Self {
+            code: Code::default(),
             parameter: parameter.into(),
             message: message.into(),
             expected: expected.into(),
             help: String::new(),
         }
+    }
+
+    /// The same problem under another number than that of unsuitable values.
+    #[must_use]
+    pub fn code(mut self, code: Code) -> Self {
+        self.code = code;
+        self
     }
 
     /// Adds what to do about it.

@@ -10,6 +10,7 @@ use serde::{Deserialize, forward_to_deserialize_any};
 
 use super::Registry;
 use super::kinds::Registered;
+use crate::code::Code;
 use crate::text::{Diagnostic, nearest, one_of};
 
 thread_local! {
@@ -93,7 +94,7 @@ impl<'de, T: ?Sized + Registered> Visitor<'de> for EntryName<'_, T> {
 /// The refusal of an unknown name; its parts are put on lines of their own when it is shown.
 fn unknown<T: ?Sized + Registered>(registry: &Registry, name: &str) -> Diagnostic {
     let names = T::kind(registry).names();
-    Diagnostic::new(format!("unknown {} `{name}`", T::WHAT))
+    Diagnostic::new(Code::UnknownName, format!("unknown {} `{name}`", T::WHAT))
         .expected(one_of(names.iter().copied()))
         .did_you_mean(nearest(name, names.iter().copied()))
 }

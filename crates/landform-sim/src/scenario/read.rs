@@ -109,10 +109,11 @@ impl ScenarioSource {
     /// As [`ScenarioSource::render`], for other programs.
     pub fn diagnostic(&self, problem: &Problem) -> Diagnostic {
         let tree = Tree::parse(self.source.text());
-        let mut diagnostic = Diagnostic::new(match problem.parameter.as_str() {
+        let message = match problem.parameter.as_str() {
             "" => problem.message.clone(),
             path => format!("{path}: {}", problem.message),
-        });
+        };
+        let mut diagnostic = Diagnostic::new(problem.code, message);
         diagnostic.span = nearest_place(&tree, &problem.parameter);
         diagnostic.expected = Some(problem.expected.clone()).filter(|text| !text.is_empty());
         diagnostic.help = Some(problem.help.clone()).filter(|text| !text.is_empty());

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::{Scenario, StageEntry};
+use crate::code::Code;
 use crate::parameters::Problem;
 use crate::registry::{AnyOutput, AnyParameters, Chosen};
 use crate::simulation::{Limits, Needs};
@@ -32,18 +33,21 @@ impl Scenario {
         if let (true, Some(stage)) = (self.metrics.is_empty(), self.stages.iter().position(waits)) {
             let message = "the stop rule waits for a metric and the scenario measures none";
             let expected = "an entry in `metrics`, or another rule";
-            problems.push(Problem::new(format!("stages[{stage}].stop"), message, expected));
+            let path = format!("stages[{stage}].stop");
+            problems.push(Problem::new(path, message, expected).code(Code::Never));
         }
         let waits = |output: &Chosen<dyn AnyOutput>| !output.value.metrics().is_empty();
         if let (true, Some(index)) = (self.metrics.is_empty(), self.outputs.iter().position(waits))
         {
             let message = "the output waits for a metric and the scenario measures none";
             let expected = "an entry in `metrics`, or another moment";
-            problems.push(Problem::new(format!("outputs[{index}].when"), message, expected));
+            let path = format!("outputs[{index}].when");
+            problems.push(Problem::new(path, message, expected).code(Code::Never));
         }
         if self.measure_every == 0 {
             let message = "measurements cannot follow each other by zero iterations";
-            problems.push(Problem::new("measure_every", message, "at least 1"));
+            let problem = Problem::new("measure_every", message, "at least 1");
+            problems.push(problem.code(Code::OutOfRange));
         }
         problems
     }
@@ -70,12 +74,14 @@ impl StageEntry {
                 let message = format!("`{}` stands twice in one stage", process.name);
                 problems.push(
                     Problem::new(format!("processes[{index}]"), message, "each process once")
+                        .code(Code::Stage)
                         .help("put the second one into a stage of its own"),
                 );
             }
         }
         if self.processes.is_empty() {
-            problems.push(Problem::new("processes", "the stage has no process", "at least one"));
+            let problem = Problem::new("processes", "the stage has no process", "at least one");
+            problems.push(problem.code(Code::Stage));
         } else if problems.is_empty() {
             problems.extend(self.stop.check(&self.ends()).err());
         }

@@ -11,6 +11,7 @@ use super::state::State;
 use super::{Keeper, memory};
 use crate::agent::{GroupListing, GroupTable, GroupUse, UnknownGroup, UnknownQuantity};
 use crate::clock::Clock;
+use crate::code::Code;
 use crate::domain::Domain;
 use crate::fault::Fault;
 use crate::field::{Bed, FieldEntry, FieldTable, NodeField, Sand, surface};
@@ -207,6 +208,7 @@ fn collect_fields(declarations: &[Vec<Declaration>]) -> Result<FieldTable, Probl
                     let message = format!("field `{}` is defined twice, differently", entry.name);
                     let path = format!("stages[{stage}].processes[{index}]");
                     return Err(Problem::new(path, message, "one definition of the field")
+                        .code(Code::Contradiction)
                         .help("rename the field in one of the plugins"));
                 }
             }
@@ -233,6 +235,7 @@ fn check_groups(declarations: &[Vec<Declaration>]) -> Result<(), Problem> {
                         format!("two groups of agents are called `{}`", group.listing.name);
                     let path = format!("stages[{stage}].processes[{index}]");
                     return Err(Problem::new(path, message, "a name for each group")
+                        .code(Code::Contradiction)
                         .help("rename the group in one of the plugins"));
                 }
                 known.push(*group);
@@ -293,7 +296,7 @@ fn check_names(
         let field = known_field(fields, &entry.field, path.clone())?;
         if !field.is_stored() {
             let message = format!("field `{}` is computed from others", entry.field);
-            return Err(Problem::new(path, message, "a stored field"));
+            return Err(Problem::new(path, message, "a stored field").code(Code::InitialValues));
         }
     }
     let mut provided: Vec<&str> = scenario.initial.iter().map(|e| e.field.as_str()).collect();
@@ -304,7 +307,9 @@ fn check_names(
                     format!("nothing provides field `{}` ({})", entry.name, entry.meaning);
                 let help =
                     format!("add (field: \"{}\", from: Uniform(value: 0.0)) say", entry.name);
-                return Err(Problem::new("initial", message, "an entry for it").help(help));
+                return Err(Problem::new("initial", message, "an entry for it")
+                    .code(Code::NotProvided)
+                    .help(help));
             }
             provided.push(entry.name);
         }
@@ -349,7 +354,8 @@ fn check_outputs(
         let earlier = &scenario.outputs[..index];
         if let Some(other) = earlier.iter().position(|other| other.value.file() == Some(file)) {
             let message = format!("outputs[{other}] writes `{}` already", file.display());
-            return Err(Problem::new(format!("{path}.file"), message, "a file of its own"));
+            let problem = Problem::new(format!("{path}.file"), message, "a file of its own");
+            return Err(problem.code(Code::OutputFile));
         }
     }
     Ok(())
@@ -365,7 +371,8 @@ fn known_field<'a>(
             path,
             format!("no field is called `{name}`"),
             format!("one of {}", unknown.known.join(", ")),
-        );
+        )
+        .code(Code::NotInRun);
         match nearest(name, unknown.known.iter().copied()) {
             Some(guess) => problem.help(format!("did you mean {guess:?}?")),
             None => problem,
@@ -375,7 +382,7 @@ fn known_field<'a>(
 
 fn known_groups(groups: &GroupTable, uses: &[GroupUse], path: &str) -> Result<(), Problem> {
     let refuse = |parameter: &str, name: &str, message: String, known: &[&str]| {
-        let problem = Problem::new(format!("{path}.{parameter}"), message, "");
+        let problem = Problem::new(format!("{path}.{parameter}"), message, "").code(Code::NotInRun);
         match nearest(name, known.iter().copied()) {
             Some(guess) => problem.help(format!("did you mean {guess:?}?")),
             None => problem,
@@ -399,7 +406,8 @@ fn known_stages(stages: &[StageEntry], named: &[String], path: &str) -> Result<(
         return Ok(());
     };
     let expected = format!("one of {}", known().collect::<Vec<_>>().join(", "));
-    let problem = Problem::new(path, format!("no stage is called `{name}`"), expected);
+    let message = format!("no stage is called `{name}`");
+    let problem = Problem::new(path, message, expected).code(Code::NotInRun);
     Err(match nearest(name, known()) {
         Some(guess) => problem.help(format!("did you mean {guess:?}?")),
         None => problem,
@@ -418,7 +426,7 @@ fn fill(app: &mut App, scenario: &Scenario, domain: &Domain, folder: &Path) -> R
         let new = entry.from.value.values(&context).map_err(|problem| below(&from, problem))?;
         if new.len() != nodes {
             let message = format!("{} values for {nodes} nodes", new.len());
-            return Err(Problem::new(from, message, "one value a node"));
+            return Err(Problem::new(from, message, "one value a node").code(Code::InitialValues));
         }
         let world = app.world_mut();
         let field = known_field(world.resource::<FieldTable>(), &entry.field, path)?;
@@ -429,7 +437,7 @@ fn fill(app: &mut App, scenario: &Scenario, domain: &Domain, folder: &Path) -> R
         });
         if let Some(node) = values.iter().position(|value| !value.is_finite()) {
             let message = format!("field `{}` is {} at node {node}", field.name, values[node]);
-            return Err(Problem::new(from, message, "finite values"));
+            return Err(Problem::new(from, message, "finite values").code(Code::InitialValues));
         }
         field.write(world, &values);
     }
@@ -447,7 +455,9 @@ fn check_least(world: &World, scenario: &Scenario) -> Result<(), Problem> {
             let message =
                 format!("field `{name}` starts with {} {unit} at node {node}", values[node]);
             let help = "raise its mean or lower its amplitude".to_owned();
-            return Err(Problem::new(path, message, format!("at least {least} {unit}")).help(help));
+            return Err(Problem::new(path, message, format!("at least {least} {unit}"))
+                .code(Code::InitialValues)
+                .help(help));
         }
     }
     Ok(())

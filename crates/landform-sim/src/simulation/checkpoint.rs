@@ -130,7 +130,7 @@ impl Simulation {
         checkpoint.texts.insert(MANIFEST.to_owned(), manifest.text());
         for (index, (name, sink)) in self.sinks.iter_mut().enumerate() {
             sink.save(&mut checkpoint.saver(format!("outputs/{index}")))
-                .map_err(|problem| RunError::Recording { name: (*name).to_owned(), problem })?;
+                .map_err(|problem| super::run::recording(name, problem))?;
         }
         for (index, (_, meter)) in self.metrics.iter().enumerate() {
             meter.save(&mut checkpoint.saver(format!("metrics/{index}")));

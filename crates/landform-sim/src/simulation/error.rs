@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::checkpoint::Damage;
+use crate::code::Code;
 use crate::parameters::Problem;
 
 /// Why a run stopped before its end.
@@ -76,7 +77,7 @@ pub enum RunError {
         /// Name of the metric or output.
         name: String,
         /// Why.
-        problem: Problem,
+        problem: Box<Problem>,
     },
     /// A checkpoint does not fit what the processes keep.
     #[error("the run cannot go on: {0}")]
@@ -89,4 +90,22 @@ pub enum RunError {
         /// Iterations that were finished.
         iterations: u64,
     },
+}
+
+impl RunError {
+    /// Its number.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotFinite { .. } => Code::NotFinite,
+            Self::Budget { .. } => Code::Budget,
+            Self::Fault { .. } => Code::Fault,
+            Self::Plugin { .. } => Code::Plugin,
+            Self::Recording { problem, .. } => match problem.code {
+                Code::Unsuitable | Code::Picture => Code::Recording,
+                code => code,
+            },
+            Self::Damaged(damage) => damage.code(),
+            Self::Interrupted { .. } => Code::Interrupted,
+        }
+    }
 }

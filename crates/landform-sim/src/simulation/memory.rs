@@ -1,5 +1,6 @@
 //! How much memory a run will take, before it takes it.
 
+use crate::code::Code;
 use crate::nodes::ENTITY_BYTES;
 use crate::parameters::Problem;
 use crate::process::Declaration;
@@ -37,5 +38,6 @@ pub(super) fn check(nodes: u128, bytes_per_node: usize, limit: u64) -> Result<()
         ),
         format!("at most {affordable} nodes, {side} x {side} say"),
     )
+    .code(Code::Memory)
     .help("make the domain smaller or raise the limit with --memory-limit-gib"))
 }

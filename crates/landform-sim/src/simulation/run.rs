@@ -11,6 +11,7 @@ use super::stage;
 use super::turn::Turn;
 use super::{Progress, ProgressHook, Report, RunError, Simulation, StageReport};
 use crate::clock::Clock;
+use crate::code::Code;
 use crate::notes::Notes;
 use crate::output::{Moment, OutputFile, Sink};
 use crate::parameters::Problem;
@@ -215,7 +216,8 @@ impl Simulation {
         let Some((name, what, path)) = unknown else { return Ok(()) };
         let path = path.cloned().unwrap_or_else(|| format!("stages[{stage}].stop"));
         let message = format!("nothing measures `{name}`, so this never happens");
-        let mut problem = Problem::new(path, message, format!("one of {}", known.join(", ")));
+        let mut problem =
+            Problem::new(path, message, format!("one of {}", known.join(", "))).code(Code::Never);
         if let Some(guess) = nearest(name, known.iter().map(String::as_str)) {
             problem = problem.help(format!("did you mean {guess:?}?"));
         }
@@ -311,6 +313,7 @@ pub(super) fn names(stage: &StageEntry) -> Vec<String> {
     stage.processes.iter().map(|process| process.name.to_owned()).collect()
 }
 
-fn recording(name: &str, problem: Problem) -> RunError {
-    RunError::Recording { name: name.to_owned(), problem }
+/// The failure of a metric or an output.
+pub(super) fn recording(name: &str, problem: Problem) -> RunError {
+    RunError::Recording { name: name.to_owned(), problem: Box::new(problem) }
 }

@@ -8,6 +8,7 @@ use bevy_ecs::world::World;
 use super::RunError;
 use crate::checkpoint::{Checkpoint, Damage};
 use crate::clock::Clock;
+use crate::code::Code;
 use crate::field::{FieldEntry, FieldTable};
 use crate::ledger::Ledger;
 use crate::parameters::Problem;
@@ -40,6 +41,7 @@ impl State {
             if owners.insert(*name, *id).is_some_and(|other| other != *id) {
                 let message = format!("two resources that processes keep are called `{name}`");
                 return Err(Problem::new("stages", message, "a name for each type of resource")
+                    .code(Code::Contradiction)
                     .help("rename one of the types in its plugin"));
             }
             kept.insert(*name, *codec);

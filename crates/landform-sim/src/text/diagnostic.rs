@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::code::Code;
+
 use super::source::{Place, Position, Source, Span};
 
 /// Most characters of a line that a message shows.
@@ -16,6 +18,8 @@ const LONGEST_PART: usize = 2000;
 /// Why a scenario is refused: what is wrong, where, what was expected and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Its number.
+    pub code: Code,
     /// What is wrong, in a phrase without a full stop.
     pub message: String,
     /// Where, in bytes of [`Source::text`].
@@ -29,6 +33,8 @@ pub struct Diagnostic {
 /// A message for other programs: editors, say.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Located {
+    /// Number of the message.
+    pub code: Code,
     /// Name of the file.
     pub file: String,
     /// Line and column where it begins, both from one; none where the place is not in the file.
@@ -54,6 +60,7 @@ impl Diagnostic {
             _ => None,
         };
         Located {
+            code: self.code,
             file: source.name().to_owned(),
             start: ends.map(|[start, _]| start),
             end: ends.map(|[_, end]| end),
@@ -64,8 +71,8 @@ impl Diagnostic {
     }
 
     /// A message without a position.
-    pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), span: None, expected: None, help: None }
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Self { code, message: message.into(), span: None, expected: None, help: None }
     }
 
     /// The message at a place in the text.
@@ -95,7 +102,7 @@ impl Diagnostic {
     /// with a line feed. Control characters are shown as `?`, so no file can play tricks on
     /// a terminal.
     pub fn render(&self, source: &Source) -> String {
-        let mut text = format!("error: {}\n", printable(&self.message));
+        let mut text = format!("error[{}]: {}\n", self.code, printable(&self.message));
         match self.span.map(|span| source.place(span)) {
             None => text.push_str(&format!(" --> {}\n", printable(source.name()))),
             Some(Place::File { text: file, span }) => {
@@ -215,11 +222,11 @@ mod tests {
         let source =
             source("(\n  stages: [(\n    processes: [\n\t\tDnes(slab_m: 5.0),\r\n    ])]\n)");
         let start = source.text().find("Dnes").unwrap();
-        let diagnostic = Diagnostic::new("unknown process \"Dnes\"")
+        let diagnostic = Diagnostic::new(Code::UnknownName, "unknown process \"Dnes\"")
             .at(Span::new(start, start + 4))
             .expected("one of Dunes, Sandpile")
             .did_you_mean(Some("Dunes"));
-        let expected = r#"error: unknown process "Dnes"
+        let expected = r#"error[L0102]: unknown process "Dnes"
  --> scenarios/x.ron:4:3
   |
 4 |   Dnes(slab_m: 5.0),
@@ -235,8 +242,8 @@ mod tests {
 
     #[test]
     fn a_message_without_a_place_names_the_file() {
-        let text = Diagnostic::new("empty").render(&source(""));
-        assert_eq!(text, "error: empty\n --> scenarios/x.ron\n");
+        let text = Diagnostic::new(Code::Notation, "empty").render(&source(""));
+        assert_eq!(text, "error[L0101]: empty\n --> scenarios/x.ron\n");
     }
 
     #[test]
@@ -249,7 +256,7 @@ mod tests {
             ("äöü", Span::new(1, 3), "1 | äöü", "  | ^"),
             ("", Span::new(0, 0), "1 | ", "  | ^"),
         ] {
-            let shown = Diagnostic::new("m").at(span).render(&source(text));
+            let shown = Diagnostic::new(Code::Notation, "m").at(span).render(&source(text));
             let lines: Vec<&str> = shown.lines().collect();
             assert_eq!((lines[3], lines[4]), (line, carets), "{text:?} {span:?}");
         }
@@ -258,31 +265,38 @@ mod tests {
     #[test]
     fn long_lines_are_cut_around_the_span() {
         let text = format!("{}BAD{}", "x".repeat(100_000), "y".repeat(100_000));
-        let shown = Diagnostic::new("m").at(Span::new(100_000, 100_003)).render(&source(&text));
+        let shown = Diagnostic::new(Code::Notation, "m")
+            .at(Span::new(100_000, 100_003))
+            .render(&source(&text));
         let lines: Vec<&str> = shown.lines().collect();
         assert!(lines[1].ends_with(":1:100001"), "{}", lines[1]);
         let at = lines[3].find("BAD").unwrap();
         assert_eq!(lines[4].find('^'), Some(at));
         assert_eq!(lines[4].trim_end().len(), at + 3);
         assert!(lines[3].len() < 120 && lines[3].ends_with("y..."), "{}", lines[3]);
-        let whole = Diagnostic::new("m").at(Span::new(0, text.len())).render(&source(&text));
+        let whole = Diagnostic::new(Code::Notation, "m")
+            .at(Span::new(0, text.len()))
+            .render(&source(&text));
         assert!(whole.lines().all(|line| line.len() < 120), "{whole}");
     }
 
     #[test]
     fn several_messages_come_in_the_order_of_the_text() {
-        let at = |start| Diagnostic::new(format!("at {start}")).at(Span::new(start, start + 1));
-        let all = [at(2), Diagnostic::new("none"), at(0)];
+        let at = |start| {
+            Diagnostic::new(Code::Notation, format!("at {start}")).at(Span::new(start, start + 1))
+        };
+        let all = [at(2), Diagnostic::new(Code::Notation, "none"), at(0)];
         let shown = render_all(&all, &source("abc"));
         let messages: Vec<&str> = shown.lines().filter(|line| line.starts_with("error")).collect();
-        assert_eq!(messages, ["error: none", "error: at 0", "error: at 2"]);
-        assert!(shown.contains("\n\nerror: at 0"), "{shown}");
+        assert_eq!(messages, ["error[L0101]: none", "error[L0101]: at 0", "error[L0101]: at 2"]);
+        assert!(shown.contains("\n\nerror[L0101]: at 0"), "{shown}");
     }
 
     #[test]
     fn control_characters_do_not_reach_the_terminal() {
-        let shown =
-            Diagnostic::new("m\u{1b}[2J").at(Span::new(3, 4)).render(&source("\u{1b}\0\u{202E}z"));
+        let shown = Diagnostic::new(Code::Notation, "m\u{1b}[2J")
+            .at(Span::new(3, 4))
+            .render(&source("\u{1b}\0\u{202E}z"));
         assert!(!shown.contains(['\u{1b}', '\0', '\u{202E}']), "{shown:?}");
         assert!(shown.contains("1 | ???z"), "{shown:?}");
     }

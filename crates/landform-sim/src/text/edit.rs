@@ -2,6 +2,8 @@
 
 use ron::value::RawValue;
 
+use crate::code::Code;
+
 use super::diagnostic::Diagnostic;
 use super::nearest::{nearest, one_of};
 use super::path::{Miss, inside, names, parts, step};
@@ -40,7 +42,7 @@ impl Edit<'_> {
         let tree = Tree::parse(self.source.text());
         let parts: Vec<&str> = parts(self.path).collect();
         let (Some(&last), Some(root)) = (parts.last(), &tree.root) else {
-            return Err(Diagnostic::new("there is nothing to set")
+            return Err(Diagnostic::new(Code::Edit, "there is nothing to set")
                 .expected("path=value, such as stages[0].processes.Dunes.slab_m=5.0"));
         };
         let mut parent = root;
@@ -147,11 +149,15 @@ fn written(value: &str, replaces_string: bool) -> Result<String, Diagnostic> {
     match error {
         None if is_string || is_option || !replaces_string => Ok(value.to_owned()),
         _ if value.is_empty() && !replaces_string => {
-            Err(Diagnostic::new("there is no value after the equals sign").expected("a value"))
+            Err(Diagnostic::new(Code::Edit, "there is no value after the equals sign")
+                .expected("a value"))
         }
         Some(error) if value.starts_with('"') || (is_bracketed(value) && !replaces_string) => {
-            Err(Diagnostic::new(format!("the value is not RON: {}", message_of(&error.code)))
-                .expected("one value, such as 5.0, \"text\", (40, 50) or Dunes(slab_m: 5.0)"))
+            Err(Diagnostic::new(
+                Code::Edit,
+                format!("the value is not RON: {}", message_of(&error.code)),
+            )
+            .expected("one value, such as 5.0, \"text\", (40, 50) or Dunes(slab_m: 5.0)"))
         }
         _ => Ok(quoted(value)),
     }
@@ -182,7 +188,7 @@ fn refusal(parent: &Node, walked: &str, part: &str, miss: Miss) -> Diagnostic {
     let place = if walked.is_empty() { "the scenario" } else { walked };
     let inner = inside(parent);
     if let Miss::Several(count) = miss {
-        return Diagnostic::new(format!("{place} has {count} elements named {part:?}"))
+        return Diagnostic::new(Code::Edit, format!("{place} has {count} elements named {part:?}"))
             .at(parent.span)
             .help(format!("name one by its number, such as {walked}[0], counted from zero"));
     }
@@ -200,7 +206,7 @@ fn refusal(parent: &Node, walked: &str, part: &str, miss: Miss) -> Diagnostic {
         (Kind::Struct | Kind::Map, _) => one_of(names.iter().copied()),
         _ => format!("nothing after {walked:?}, which is a single value"),
     };
-    Diagnostic::new(format!("{place} has no {part:?}"))
+    Diagnostic::new(Code::Edit, format!("{place} has no {part:?}"))
         .at(parent.span)
         .expected(expected)
         .did_you_mean(nearest(part, names))
@@ -312,16 +318,18 @@ mod tests {
         assert_eq!(thrice.text(), "(a: (k: 77),\n b: 2, c: \"x/y\")");
         let shown = |part: &str| {
             let start = thrice.text().find(part).unwrap();
-            Diagnostic::new("m").at(Span::new(start, start + part.len())).render(&thrice)
+            Diagnostic::new(Code::Edit, "m")
+                .at(Span::new(start, start + part.len()))
+                .render(&thrice)
         };
-        assert_eq!(shown("77"), "error: m\n --> --set a.k=77\n |\n | a.k=77\n |     ^^\n");
+        assert_eq!(shown("77"), "error[L0106]: m\n --> --set a.k=77\n |\n | a.k=77\n |     ^^\n");
         assert_eq!(
             shown("k:"),
-            "error: m\n --> --set a=(k: 12345)\n |\n | a=(k: 12345)\n |    ^^\n"
+            "error[L0106]: m\n --> --set a=(k: 12345)\n |\n | a=(k: 12345)\n |    ^^\n"
         );
-        assert_eq!(shown("\"x/y\""), "error: m\n --> --set c=x/y\n |\n | c=x/y\n |   ^^^\n");
-        assert_eq!(shown("c"), "error: m\n --> --set c=x/y\n |\n | c=x/y\n | ^\n");
-        assert_eq!(shown("b: 2"), "error: m\n --> x.ron:2:2\n  |\n2 |  b: 2)\n  |  ^^^^\n");
+        assert_eq!(shown("\"x/y\""), "error[L0106]: m\n --> --set c=x/y\n |\n | c=x/y\n |   ^^^\n");
+        assert_eq!(shown("c"), "error[L0106]: m\n --> --set c=x/y\n |\n | c=x/y\n | ^\n");
+        assert_eq!(shown("b: 2"), "error[L0106]: m\n --> x.ron:2:2\n  |\n2 |  b: 2)\n  |  ^^^^\n");
         let end = thrice.text().len() - 1;
         let place = thrice.place(Span::new(end, end));
         assert!(matches!(place, Place::File { span, .. } if span.start == 12), "{place:?}");

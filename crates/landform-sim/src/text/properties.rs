@@ -6,6 +6,8 @@ use proptest::prelude::*;
 use ron::ser::{PrettyConfig, to_string, to_string_pretty};
 use serde::{Deserialize, Serialize};
 
+use crate::code::Code;
+
 use super::lexer::Tokens;
 use super::path::inside;
 use super::{
@@ -179,11 +181,11 @@ proptest! {
         for node in tree.root.iter().flat_map(Node::walk) {
             prop_assert!(source.text().get(node.span.start..node.span.end).is_some(), "{:?}", node.span);
         }
-        Diagnostic::new(value.clone()).at(Span::new(at, at + long)).render(&source);
+        Diagnostic::new(Code::Notation, value.clone()).at(Span::new(at, at + long)).render(&source);
         for result in [set(&source, &path, &value), set(&source, "a", &value)] {
             match result {
                 Ok(edited) => {
-                    Diagnostic::new("m").at(Span::new(at, at + long)).render(&edited);
+                    Diagnostic::new(Code::Notation, "m").at(Span::new(at, at + long)).render(&edited);
                     if let Err(error) = ron::from_str::<ron::Value>(edited.text()) {
                         ron_diagnostic(&edited, &error).render(&edited);
                     }

@@ -6,6 +6,8 @@
 
 use ron::error::{Error, SpannedError};
 
+use crate::code::Code;
+
 use super::diagnostic::Diagnostic;
 use super::lexer::{Symbol, Token, Tokens};
 use super::nearest::{nearest, one_of};
@@ -96,7 +98,8 @@ impl Refused<'_> {
             self.unknown_name("name")
         } else if starts(&["unexpected duplicate field", "duplicate field"]) {
             let field = quoted_names(words).next().unwrap_or_default();
-            Diagnostic::new(format!("the field {field:?} is given twice")).at(self.span)
+            Diagnostic::new(Code::RepeatedField, format!("the field {field:?} is given twice"))
+                .at(self.span)
         } else if let Some(ours) = meant(&MARKS) {
             self.wrong_mark(ours)
         } else if let Some(ours) = meant(&VALUES) {
@@ -123,17 +126,19 @@ impl Refused<'_> {
         let token = self.token().map_or(self.span, |token| token.span);
         match words {
             "non-whitespace trailing characters" => {
-                Diagnostic::new("there is more text after the end of the scenario").at(token).help(
-                    "look for a closing bracket too many, or parentheses missing around it all",
-                )
+                Diagnostic::new(Code::Notation, "there is more text after the end of the scenario")
+                    .at(token)
+                    .help(
+                        "look for a closing bracket too many, or parentheses missing around it all",
+                    )
             }
             _ if words.starts_with("exceeded recursion limit") => {
-                Diagnostic::new("brackets are nested too deep")
+                Diagnostic::new(Code::Notation, "brackets are nested too deep")
                     .at(token)
                     .expected("at most 128 levels")
             }
             _ if words.starts_with("found invalid std identifier") => {
-                Diagnostic::new("this is not the name of a field")
+                Diagnostic::new(Code::Notation, "this is not the name of a field")
                     .at(token)
                     .expected("letters, digits and underscores")
             }
@@ -145,7 +150,7 @@ impl Refused<'_> {
     fn other_struct(&self, expected: &str, found: &str) -> Diagnostic {
         let (expected, found) = (quoted_names(expected).next(), quoted_names(found).next());
         let (expected, found) = (expected.unwrap_or_default(), found.unwrap_or_default());
-        Diagnostic::new(format!("unknown name {found:?}"))
+        Diagnostic::new(Code::UnknownName, format!("unknown name {found:?}"))
             .at(self.span)
             .expected(format!("{expected}, or parentheses without a name"))
             .did_you_mean(nearest(found, [expected]))
@@ -158,7 +163,9 @@ impl Refused<'_> {
             None => (Some(self.label()), self.place()),
         };
         let label = label.unwrap_or_else(|| "the value".to_owned());
-        Diagnostic::new(format!("{label}: found {found}")).at(span).expected(expected)
+        Diagnostic::new(Code::WrongType, format!("{label}: found {found}"))
+            .at(span)
+            .expected(expected)
     }
 
     /// The error as it was written, taken apart again if it was a diagnostic.
@@ -170,7 +177,12 @@ impl Refused<'_> {
             None if self.span.is_empty() => self.place(),
             None => self.span,
         };
-        Diagnostic { message: message.to_owned(), span: Some(span), expected, help }
+        // A reader of names writes so; its code does not pass through the text.
+        let code = match message.starts_with("unknown ") {
+            true => Code::UnknownName,
+            false => Code::WrongType,
+        };
+        Diagnostic { code, message: message.to_owned(), span: Some(span), expected, help }
     }
 
     /// A field or variant that the type does not have; the names it has are in the error.
@@ -181,7 +193,7 @@ impl Refused<'_> {
         let owner = heads.next().or_else(|| self.owner_name());
         let owner = owner.map_or(String::new(), |owner| format!(" in {owner}"));
         let known: Vec<&str> = quoted_names(tail).collect();
-        Diagnostic::new(format!("unknown {what} {found:?}{owner}"))
+        Diagnostic::new(Code::UnknownName, format!("unknown {what} {found:?}{owner}"))
             .at(self.span)
             .did_you_mean(nearest(found, known.iter().copied()))
             .expected(one_of(known))
@@ -209,7 +221,7 @@ impl Refused<'_> {
         };
         let label = label.or(names.next().map(str::to_owned));
         let label = label.unwrap_or_else(|| "the value".to_owned());
-        Diagnostic::new(format!("{label} lacks the field {field:?}"))
+        Diagnostic::new(Code::MissingField, format!("{label} lacks the field {field:?}"))
             .at(span.unwrap_or(self.span))
             .expected(format!("{field}: ..."))
             .help(format!("add {field} between the parentheses of {label}"))
@@ -230,7 +242,7 @@ impl Refused<'_> {
             "" => format!("{label} is missing"),
             found => format!("{label} cannot be {}", first_letters(found)),
         };
-        Diagnostic::new(message).at(span).expected(expected)
+        Diagnostic::new(Code::WrongType, message).at(span).expected(expected)
     }
 
     /// Something else where a comma, a colon or a closing bracket should be. Most often something
@@ -252,9 +264,13 @@ impl Refused<'_> {
             }
             Some(token) => {
                 let found = first_letters(token.span.of(self.tree.text));
-                Diagnostic::new(format!("unexpected {found}")).at(token.span).expected(expected)
+                Diagnostic::new(Code::Notation, format!("unexpected {found}"))
+                    .at(token.span)
+                    .expected(expected)
             }
-            None => Diagnostic::new("the text ends too early").at(self.span).expected(expected),
+            None => Diagnostic::new(Code::Notation, "the text ends too early")
+                .at(self.span)
+                .expected(expected),
         }
     }
 
@@ -275,7 +291,7 @@ impl Refused<'_> {
             }
             _ => "the end of the text".to_owned(),
         };
-        Diagnostic::new(format!("the {what} that begins here is never closed"))
+        Diagnostic::new(Code::Notation, format!("the {what} that begins here is never closed"))
             .at(span)
             .expected(format!("{end} before {limit}"))
     }

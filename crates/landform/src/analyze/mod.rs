@@ -36,10 +36,13 @@ use std::path::{Path, PathBuf};
 use landform_analysis::grid::GridError;
 use landform_analysis::{DimensionError, PolylineError, ScaleRange};
 use landform_io::{IoError, npy};
+use landform_sim::code::Code;
 use landform_view::ViewError;
 use landform_view::plot::Figure;
 use serde::Serialize;
 use thiserror::Error;
+
+use crate::explain::code_of_file;
 
 pub use cave::{Beside, CaveAnalysis, CaveNumbers};
 pub use lines::{LineAnalysis, LineNumbers};
@@ -117,6 +120,17 @@ pub enum AnalyzeError {
 }
 
 impl AnalyzeError {
+    /// Its number.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Read(error) => code_of_file(error),
+            Self::Memory { .. } => Code::Memory,
+            Self::Grid { .. } => Code::NoSpacing,
+            Self::Rulers { .. } => Code::Rulers,
+            Self::Line { .. } => Code::DamagedFile,
+        }
+    }
+
     /// Why a file could not be read, with the limit if that was too low.
     fn of(error: IoError, memory_bytes: u64) -> Self {
         match error {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use landform_graph::Lattice;
 use landform_io::Raster;
+use landform_sim::code::Code;
 use landform_sim::domain::{Border, Domain, DomainSource, Neighbourhood};
 use landform_sim::outside::Outside;
 use landform_sim::parameters::Problem;
@@ -92,6 +93,7 @@ impl DomainSource for RasterDomain {
         outside.extend(&mut raster.values);
         raster.complete(&path).map_err(|error| {
             Problem::new("path", error.to_string(), "data at one of the nodes that are kept")
+                .code(Code::Gaps)
         })?;
         if !outside.is_empty() {
             let count = outside.pairs().len();
@@ -117,13 +119,15 @@ impl RasterDomain {
     ) -> Result<(), Problem> {
         let missing = raster.missing_count();
         let Some([lowest, _]) = raster.range() else {
-            return Err(Problem::new("path", "the raster has no data at all", "elevations"));
+            let problem = Problem::new("path", "the raster has no data at all", "elevations");
+            return Err(problem.code(Code::Gaps));
         };
         match self.gaps {
             _ if missing == 0 => {}
             Gaps::Refuse => {
                 let error = raster.complete(path).err().map_or(String::new(), |e| e.to_string());
                 return Err(Problem::new("path", error, "a value in every cell")
+                    .code(Code::Gaps)
                     .help("or choose what becomes of them: gaps: Outside, gaps: Lowest"));
             }
             Gaps::Lowest => {
@@ -158,6 +162,7 @@ impl RasterDomain {
                 Ok(spacing_m)
             }
             (_, Err(error)) => Err(Problem::new("spacing_m", error.to_string(), "metres")
+                .code(Code::NoSpacing)
                 .help("say the distance between nodes: spacing_m: 30.0")),
             (_, Ok(spacing_m)) => Ok(spacing_m),
         }

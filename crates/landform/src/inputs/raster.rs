@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use landform_io::{Raster, read_raster};
+use landform_sim::code::Code;
 use landform_sim::initial::{InitialCondition, InitialContext};
 use landform_sim::parameters::Problem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::explain::file_problem;
 
 /// The values of the raster that the domain was made from (domain `Raster`), scaled and raised.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -63,22 +66,19 @@ impl InitialCondition for RasterFile {
         if depth != 1 || raster.size() != [width, height] {
             let [columns, rows] = raster.size();
             let message = format!("{} has {columns} columns and {rows} rows", path.display());
-            return Err(Problem::new(
-                "path",
-                message,
-                format!("{width} columns and {height} rows"),
-            ));
+            let expected = format!("{width} columns and {height} rows");
+            return Err(Problem::new("path", message, expected).code(Code::OtherSize));
         }
-        raster
-            .complete(&path)
-            .map_err(|error| Problem::new("path", error.to_string(), "a value in every cell"))?;
+        raster.complete(&path).map_err(|error| {
+            Problem::new("path", error.to_string(), "a value in every cell").code(Code::Gaps)
+        })?;
         Ok(raster.values.iter().map(|value| value * self.scale + self.offset).collect())
     }
 }
 
 /// Reads a raster for the parameter `parameter`.
 pub(super) fn read(path: &Path, parameter: &str) -> Result<Raster, Problem> {
-    read_raster(path).map_err(|error| Problem::new(parameter, error.to_string(), ""))
+    read_raster(path).map_err(|error| file_problem(parameter, &error))
 }
 
 /// Every `step`-th column and row of a raster, from the north-west corner. The middles of the cells

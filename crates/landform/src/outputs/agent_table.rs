@@ -12,6 +12,8 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::explain::file_problem;
+
 /// The agents of a group as comma-separated values, one a line and in node order: where each of
 /// them stands, since which iteration, and every quantity that it knows.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -55,7 +57,7 @@ impl FileOutput for AgentTable {
         write_atomically(path, IfExists::Replace, |file| {
             table(file, snapshot.lattice(), &group, &values)
         })
-        .map_err(|error| Problem::new("file", error.to_string(), ""))
+        .map_err(|error| file_problem("file", &error))
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use landform_graph::Lattice;
 use landform_io::IfExists;
 use landform_io::mesh::{self, Mesh};
+use landform_sim::code::Code;
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::branch_source::BranchSource;
 use super::field_file;
+use crate::explain::file_problem;
 
 /// The branches of a dendrite, an aggregate or an L-system as tubes: glTF (`.glb`), `.obj`, `.ply`,
 /// `.stl`. Every branch is a closed manifold of its own that begins inside the one it leaves.
@@ -74,14 +76,15 @@ impl FileOutput for BranchMesh {
             ..Mesh::default()
         };
         let metadata = field_file::run_metadata(snapshot);
-        let refuse = |error: landform_io::IoError| Problem::new("file", error.to_string(), "");
+        let refuse = |error: landform_io::IoError| file_problem("file", &error);
         mesh::write_mesh(path, &mesh.with_normals(), &metadata, IfExists::Replace).map_err(refuse)
     }
 }
 
 impl BranchMesh {
     fn colour_map(&self) -> Result<ColourMap, Problem> {
-        ColourMap::named(&self.colours)
-            .map_err(|error| Problem::new("colours", error.to_string(), "a colour map"))
+        ColourMap::named(&self.colours).map_err(|error| {
+            Problem::new("colours", error.to_string(), "a colour map").code(Code::Picture)
+        })
     }
 }

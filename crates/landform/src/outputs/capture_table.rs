@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::field_file;
 use super::map_place::{MapPlace, check_plane};
+use crate::explain::file_problem;
 
 /// Every capture of a tributary as comma-separated values: the iteration of the survey that found
 /// it, the place of the captured stream's lowest node, the area that drains through it, and the
@@ -123,7 +124,7 @@ impl CaptureSink {
             }
             Ok(())
         });
-        written.map_err(|error| Problem::new("file", error.to_string(), ""))?;
+        written.map_err(|error| file_problem("file", &error))?;
         Ok(vec![OutputFile { file: self.settings.file.clone(), kind: "table".to_owned() }])
     }
 }

@@ -14,6 +14,8 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::explain::file_problem;
+
 /// Every event in the growth of caves as comma-separated values: `link`s of two sources that do not
 /// drain yet, `breakthrough`s to a sink, `capture`s of tributaries, and each `phreatic_loop` on the
 /// course of a source that comes to drain; with the stage and its iteration, the numbers of the
@@ -113,7 +115,7 @@ impl EventSink {
                 writeln!(file, "{stage},{}", row(snapshot.lattice(), event))
             })
         });
-        written.map_err(|error| Problem::new("file", error.to_string(), ""))?;
+        written.map_err(|error| file_problem("file", &error))?;
         Ok(vec![OutputFile { file: self.settings.file.clone(), kind: "table".to_owned() }])
     }
 }

@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
+use crate::explain::file_problem;
 
 /// The centreline of the voxels of a volume that are at least a value as a survey, with the distances
 /// to the walls at each station: Survex (`.svx`), Therion (`.th`), or a table of legs (`.csv`).
@@ -78,7 +79,7 @@ impl FileOutput for Centreline {
             Some(extension) if extension.eq_ignore_ascii_case("th") => survey.therion(file),
             _ => survey.table(file),
         })
-        .map_err(|error| Problem::new("file", error.to_string(), ""))
+        .map_err(|error| file_problem("file", &error))
     }
 }
 

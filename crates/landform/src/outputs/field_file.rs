@@ -13,6 +13,8 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::explain::file_problem;
+
 /// A field as a raster: GeoTIFF (`.tif`), ESRI ASCII (`.asc`), NumPy (`.npy`), 16-bit grey
 /// (`.png`) or 32-bit floats (`.raw`), with scale, unit, spacing and seed in it or beside it; or as
 /// VTK image data (`.vti`). Volumes are written as `.npy` (layers, rows, columns) or `.vti`.
@@ -67,8 +69,7 @@ impl FileOutput for FieldFile {
 
     fn write(&self, path: &Path, snapshot: &Snapshot<'_>) -> Result<(), Problem> {
         let (values, entry) = values(snapshot, &self.field)?;
-        write_field(path, snapshot, values, entry)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))
+        write_field(path, snapshot, values, entry).map_err(|error| file_problem("file", &error))
     }
 }
 

@@ -6,6 +6,7 @@ use landform_graph::Lattice;
 use landform_io::netcdf::{Axis, Layout, SeriesWriter, Variable, axes};
 use landform_io::{Georeference, IfExists, IoError};
 use landform_sim::checkpoint::{Damage, Loader, Saver};
+use landform_sim::code::Code;
 use landform_sim::output::{Moment, Output, OutputFile, Sink, When, below, check_file};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
+use crate::explain::file_problem;
 
 /// Fields as they change: one NetCDF file (`.nc`) with a record for each iteration at which it is
 /// due, with units, coordinates, title and seed. The file is whole after each record.
@@ -122,7 +124,7 @@ impl Sink for SeriesSink {
 }
 
 fn problem(error: &IoError) -> Problem {
-    Problem::new("file", error.to_string(), "")
+    file_problem("file", error)
 }
 
 /// What the file of these fields holds.
@@ -139,7 +141,8 @@ fn layout(snapshot: &Snapshot<'_>, fields: &[String]) -> Result<Layout, Problem>
     }
     let field = |name: &String| {
         let entry = snapshot.entry(name);
-        let entry = entry.map_err(|error| Problem::new("fields", error.to_string(), ""))?;
+        let entry = entry
+            .map_err(|error| Problem::new("fields", error.to_string(), "").code(Code::NotInRun))?;
         let variable = Variable::new(entry.name).text("long_name", entry.meaning);
         let mapping = if system.is_some() { "crs" } else { "" };
         Ok(variable.text("units", entry.unit).text("grid_mapping", mapping))

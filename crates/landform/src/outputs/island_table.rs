@@ -14,6 +14,8 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::explain::file_problem;
+
 /// The islands of the field `land` as comma-separated values, the largest first: area, length of
 /// the shore (lakes included) and the mean place of the nodes, in metres from the south-western
 /// node.
@@ -51,7 +53,7 @@ impl FileOutput for IslandTable {
         // Islands of one size stay in node order.
         islands.sort_by_key(|island| std::cmp::Reverse(island.nodes.len()));
         write_atomically(path, IfExists::Replace, |file| table(file, lattice, &islands))
-            .map_err(|error| Problem::new("file", error.to_string(), ""))
+            .map_err(|error| file_problem("file", &error))
     }
 }
 

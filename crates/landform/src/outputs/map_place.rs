@@ -7,6 +7,8 @@ use landform_io::{Feature, FeatureSystem, Georeference, IfExists, write_features
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 
+use crate::explain::file_problem;
+
 /// Refuses lattices of several layers, which are no map.
 pub(super) fn check_plane(lattice: &Lattice) -> Result<(), Problem> {
     match lattice.depth() {
@@ -46,6 +48,6 @@ impl MapPlace {
     pub fn write(&self, path: &Path, features: &[Feature]) -> Result<(), Problem> {
         let system = FeatureSystem::of(&self.place, self.size);
         write_features(path, features, system, IfExists::Replace)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))
+            .map_err(|error| file_problem("file", &error))
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use landform_graph::Lattice;
 use landform_io::mesh::{self, Body, height_mesh};
 use landform_io::{Fault, IfExists, IoError, Metadata, Raster};
+use landform_sim::code::Code;
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::field_file;
 use super::look::{WaterDepths, water_of};
 use super::map_place::check_plane;
+use crate::explain::file_problem;
 
 /// A field of heights as a triangle mesh with colours: glTF (`.glb`), `.obj`, `.ply`, `.stl`. With
 /// water, its surface is a second mesh, translucent in `.glb` and `.ply`.
@@ -92,12 +94,13 @@ impl FileOutput for Mesh {
         let water = water_of(self.water_level_m, self.water.as_ref());
         let water = water.map(|look| WaterOver { look, depths });
         write_mesh(path, &raster, &metadata, (colours, water), IfExists::Replace)
-            .map_err(|error| Problem::new("file", error.to_string(), ""))
+            .map_err(|error| file_problem("file", &error))
     }
 }
 
 fn colour_map(name: &str) -> Result<ColourMap, Problem> {
-    ColourMap::named(name).map_err(|error| Problem::new("colours", error.to_string(), ""))
+    ColourMap::named(name)
+        .map_err(|error| Problem::new("colours", error.to_string(), "").code(Code::Picture))
 }
 
 /// Water over the ground of a mesh.

@@ -13,6 +13,8 @@ use landform_sim::parameters::Problem;
 use landform_sim::simulation::Simulation;
 use landform_sim::snapshot::Snapshot;
 
+use crate::explain::file_problem;
+
 /// Writes `series.csv` in whole lines, at the latest a second after they were measured, so that
 /// a run can be watched and a killed one leaves its series.
 ///
@@ -96,7 +98,7 @@ impl Sink for SeriesFile {
 }
 
 fn problem(error: IoError) -> Problem {
-    Problem::new("", error.to_string(), "")
+    file_problem("", &error)
 }
 
 impl OpenFile {

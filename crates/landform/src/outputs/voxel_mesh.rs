@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use landform_analysis::voxels::{Surface, VoxelSet, smooth_surface};
 use landform_io::IfExists;
 use landform_io::mesh::{self, Mesh};
+use landform_sim::code::Code;
 use landform_sim::output::{FileOutput, When};
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::field_file;
+use crate::explain::file_problem;
 
 /// The surface of the voxels of a volume that are at least a value, such as the passages of a cave, as
 /// a closed manifold of triangles with colours by height: glTF (`.glb`), `.obj`, `.ply`, `.stl`.
@@ -85,14 +87,15 @@ impl FileOutput for VoxelMesh {
             ..Mesh::default()
         };
         let metadata = field_file::metadata(snapshot, entry);
-        let refuse = |error: landform_io::IoError| Problem::new("file", error.to_string(), "");
+        let refuse = |error: landform_io::IoError| file_problem("file", &error);
         mesh::write_mesh(path, &body.with_normals(), &metadata, IfExists::Replace).map_err(refuse)
     }
 }
 
 impl VoxelMesh {
     fn colour_map(&self) -> Result<ColourMap, Problem> {
-        ColourMap::named(&self.colours)
-            .map_err(|error| Problem::new("colours", error.to_string(), "a colour map"))
+        ColourMap::named(&self.colours).map_err(|error| {
+            Problem::new("colours", error.to_string(), "a colour map").code(Code::Picture)
+        })
     }
 }

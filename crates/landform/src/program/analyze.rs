@@ -3,15 +3,17 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use landform_sim::code::Code;
 use serde_json::{Value, json};
 
 use super::arguments::AnalyzeArguments;
-use super::{Failure, Outcome, folder, memory, talk};
-use crate::analyze::{Analysis, Settings, analyze};
+use super::{Failure, Outcome, coded, failed, folder, memory, refused, talk};
+use crate::analyze::{Analysis, AnalyzeError, Settings, analyze};
 
 /// Analyses every file of the arguments; one that is wrong does not stop the others.
 pub(super) fn run(arguments: &AnalyzeArguments) -> Outcome {
-    let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(Failure::Refused)?;
+    let memory_bytes =
+        memory::limit(arguments.memory_limit_gib).map_err(refused(Code::Arguments))?;
     let settings = Settings {
         rulers: arguments.rulers,
         spacing_m: arguments.spacing_m,
@@ -22,7 +24,7 @@ pub(super) fn run(arguments: &AnalyzeArguments) -> Outcome {
     for path in &arguments.files {
         match analyze(path, &settings) {
             Ok(analysis) => results.take(path, &analysis)?,
-            Err(error) => results.refuse(path, error.to_string()),
+            Err(error) => results.refuse(path, &error),
         }
     }
     results.end()
@@ -44,17 +46,17 @@ struct Results<'a> {
 impl<'a> Results<'a> {
     fn new(arguments: &'a AnalyzeArguments) -> Result<Self, Failure> {
         if let Some(asked) = &arguments.output {
-            folder::check(asked, arguments.force).map_err(Failure::Refused)?;
+            folder::check(asked, arguments.force)?;
         }
         let (names, objects, wrong) = (BTreeSet::new(), Vec::new(), Vec::new());
         Ok(Self { arguments, folder: None, names, objects, wrong })
     }
 
     /// Notes that a file was refused.
-    fn refuse(&mut self, path: &Path, message: String) {
-        let file = path.display().to_string();
-        self.objects.push(json!({ "file": file, "error": &message }));
-        self.wrong.push(message);
+    fn refuse(&mut self, path: &Path, error: &AnalyzeError) {
+        let (file, message) = (path.display().to_string(), error.to_string());
+        self.objects.push(json!({ "file": file, "code": error.code(), "error": &message }));
+        self.wrong.push(coded(error.code(), &message));
     }
 
     /// Prints and writes what was found out about a file.
@@ -75,19 +77,22 @@ impl<'a> Results<'a> {
             Some(folder) => folder.clone(),
             None => {
                 let made = folder::make(Some(asked), "", self.arguments.force);
-                self.folder.insert(made.map_err(Failure::Refused)?).clone()
+                self.folder.insert(made?).clone()
             }
         };
         let name = self.name(path);
         let place = |ending: &str| folder.join(format!("{name}.{ending}"));
-        folder::write_json(&place("json"), &analysis.json()).map_err(Failure::Failed)?;
+        folder::write_json(&place("json"), &analysis.json()).map_err(failed(Code::Unwritable))?;
         match analysis.figure() {
-            Err(error) => self.wrong.push(format!("{}: no figure: {error}", path.display())),
+            Err(error) => {
+                let message = format!("{}: no figure: {error}", path.display());
+                self.wrong.push(coded(Code::Picture, &message));
+            }
             Ok(figure) => {
                 let text = [("Title", figure.title.as_str()), ("Software", SOFTWARE)];
                 for ending in ["png", "svg"] {
                     let written = figure.write(&place(ending), &text);
-                    written.map_err(|error| Failure::Failed(error.to_string()))?;
+                    written.map_err(failed(Code::Unwritable))?;
                 }
                 if !self.arguments.json {
                     talk::say(&format!("  {:<12} {}\n", "figure", place("png").display()))?;
@@ -120,7 +125,7 @@ impl<'a> Results<'a> {
         }
         match self.wrong.is_empty() {
             true => Ok(()),
-            false => Err(Failure::Refused(self.wrong.join("\nerror: "))),
+            false => Err(Failure::Refused(self.wrong.join("\n"))),
         }
     }
 }

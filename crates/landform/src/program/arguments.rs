@@ -44,6 +44,12 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Explain the code of a message: what it means, what causes it, what to do
+    #[command(after_help = "Examples:\n  landform explain L0201\n  landform explain")]
+    Explain {
+        /// The code, as `error[L0201]` shows it; all with their titles without it
+        code: Option<String>,
+    },
     /// Print the JSON schema of whole scenarios, for editors
     #[command(after_help = "Example:\n  landform schema > scenario.schema.json")]
     Schema,

@@ -3,12 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use landform_sim::code::Code;
 use landform_sim::registry::Registry;
 use landform_sim::simulation::Limits;
 use landform_sim::text::Located;
 
 use super::arguments::CheckArguments;
-use super::{Failure, Outcome, memory, run, talk};
+use super::{Failure, Outcome, memory, refused, run, talk};
 use crate::sweep;
 
 /// What is wrong with a file: for people and for programs.
@@ -19,7 +20,7 @@ struct Wrong {
 
 /// Checks every scenario and reports all that are wrong.
 pub(super) fn check(arguments: &CheckArguments, registry: &Arc<Registry>) -> Outcome {
-    let memory_bytes = memory::limit(None).map_err(Failure::Refused)?;
+    let memory_bytes = memory::limit(None).map_err(refused(Code::Arguments))?;
     let limits = Limits { memory_bytes };
     let (mut messages, mut located) = (Vec::new(), Vec::new());
     for path in &arguments.scenarios {
@@ -52,7 +53,7 @@ fn check_scenario(
     registry: &Arc<Registry>,
     limits: Limits,
 ) -> Result<String, Wrong> {
-    let source = run::open(path, edits).map_err(|text| whole(path, text))?;
+    let source = run::open(path, edits).map_err(|failure| whole(path, &failure))?;
     let checked = source.diagnose(registry).and_then(|scenario| {
         let checked = scenario.check(source.folder(), limits);
         checked.map_err(|problem| vec![source.diagnostic(&problem)])
@@ -66,13 +67,22 @@ fn check_scenario(
 
 /// Checks a sweep with all its runs.
 fn check_sweep(path: &Path, registry: &Arc<Registry>, limits: Limits) -> Result<String, Wrong> {
-    let prepared = sweep::prepare(path, registry, limits).map_err(|text| whole(path, text))?;
+    let prepared = sweep::prepare(path, registry, limits)
+        .map_err(refused(Code::UnreadableScenario))
+        .map_err(|failure| whole(path, &failure))?;
     Ok(format!("good, {} runs", prepared.plan.runs.len()))
 }
 
 /// A message about a file as a whole.
-fn whole(path: &Path, text: String) -> Wrong {
-    let file = path.display().to_string();
-    let located = Located { file, message: text.clone(), ..Located::default() };
+fn whole(path: &Path, failure: &Failure) -> Wrong {
+    let text = failure.message().to_owned();
+    let parts = text.strip_prefix("error[").and_then(|rest| rest.split_once("]: "));
+    let (code, message) = parts.unwrap_or(("", &text));
+    let located = Located {
+        code: Code::named(code).unwrap_or_default(),
+        file: path.display().to_string(),
+        message: message.to_owned(),
+        ..Located::default()
+    };
     Wrong { text, located: vec![located] }
 }

@@ -8,10 +8,11 @@ use std::time::Instant;
 use landform_io::npz::{self, Content, Member};
 use landform_io::{IfExists, IoError};
 use landform_sim::checkpoint::{Array, Checkpoint, FOLDER};
+use landform_sim::code::Code;
 use landform_sim::simulation::{Keeper, Progress};
 
 use super::arguments::Interval;
-use super::talk;
+use super::{Failure, talk};
 
 /// Name of the file in the folder of checkpoints.
 const FILE: &str = "state.npz";
@@ -122,19 +123,24 @@ impl Claim {
     ///
     /// # Errors
     /// A message when another process is at work there or the folder cannot be written.
-    pub(super) fn new(run: &Path) -> Result<Self, String> {
+    pub(super) fn new(run: &Path) -> Result<Self, Failure> {
         let folder = folder(run);
         let refused = |error: &dyn std::fmt::Display| {
-            format!("cannot write into {}: {error}", folder.display())
+            let message = format!("cannot write into {}: {error}", folder.display());
+            Failure::refused(Code::Unwritable, message)
         };
         fs::create_dir_all(&folder).map_err(|error| refused(&error))?;
         let file = File::create(folder.join("lock")).map_err(|error| refused(&error))?;
         match file.try_lock() {
             Ok(()) => Ok(Self(file)),
-            Err(TryLockError::WouldBlock) => Err(format!(
-                "another run is at work in {}; wait for its end or name another folder with -o",
-                run.display()
-            )),
+            Err(TryLockError::WouldBlock) => {
+                let shown = run.display();
+                let message = format!(
+                    "another run is at work in {shown}; wait for its end or name another folder \
+                     with -o"
+                );
+                Err(Failure::refused(Code::Busy, message))
+            }
             // Some file systems have no locks; the run is not worse for it.
             Err(TryLockError::Error(_)) => Ok(Self(file)),
         }

@@ -2,16 +2,19 @@
 
 use std::path::Path;
 
-use super::{Failure, Outcome, talk};
+use landform_sim::code::Code;
+
+use super::{Failure, Outcome, failed, refused, talk};
 use crate::sweep::{Plan, Results, Status};
 
 /// Gathers the sweep in a folder.
 pub(super) fn collect(folder: &Path) -> Outcome {
-    let plan = Plan::read(folder).map_err(Failure::Refused)?.ok_or_else(|| {
+    let plan = Plan::read(folder).map_err(refused(Code::OtherSweep))?.ok_or_else(|| {
         let shown = folder.display();
-        Failure::Refused(format!("{shown} holds no sweep; name what `landform sweep` got by -o"))
+        let message = format!("{shown} holds no sweep; name what `landform sweep` got by -o");
+        Failure::refused(Code::OtherSweep, message)
     })?;
-    let gathered = gather(&plan, folder).map_err(Failure::Failed)?;
+    let gathered = gather(&plan, folder).map_err(failed(Code::Unwritable))?;
     tell(&gathered, folder)
 }
 
@@ -55,9 +58,13 @@ pub(super) fn tell(gathered: &Gathered, folder: &Path) -> Outcome {
     talk::say(&text)?;
     match why {
         None => Ok(()),
-        Some((number, why)) => Err(Failure::Failed(format!(
-            "{failed} runs failed, run {number} by: {why}\n{} says why for each",
-            folder.join("table.csv").display()
-        ))),
+        Some((number, why)) => {
+            let table = folder.join("table.csv");
+            let message = format!(
+                "{failed} runs failed, run {number} by: {why}\n{} says why for each",
+                table.display()
+            );
+            Err(Failure::failed(Code::FailedRuns, message))
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! `landform describe`: everything about one name.
 
+use landform_sim::code::Code;
 use landform_sim::parameters::ParameterDescription;
 use landform_sim::registry::{Kind, Registry};
 use landform_sim::text::nearest;
@@ -15,7 +16,7 @@ pub(super) fn describe(name: &str, json: bool, registry: &Registry) -> Outcome {
         .or_else(|| page("output", name, json, &registry.outputs));
     match found {
         Some(text) => talk::say(&text),
-        None => Err(Failure::Refused(unknown(name, registry))),
+        None => Err(Failure::refused(Code::UnknownSubject, unknown(name, registry))),
     }
 }
 

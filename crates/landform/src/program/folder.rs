@@ -4,7 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use landform_io::{IfExists, write_atomically};
+use landform_sim::code::Code;
 use serde::Serialize;
+
+use super::{Failure, refused};
 
 /// File that shows whether a folder can be written; a process that is killed may leave it.
 const PROBE: &str = ".landform-probe.tmp";
@@ -13,7 +16,7 @@ const PROBE: &str = ".landform-probe.tmp";
 ///
 /// An existing folder is refused unless it is empty or `force` is given; without a name a new
 /// folder below `out` is made.
-pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<PathBuf, String> {
+pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<PathBuf, Failure> {
     let folder = match asked {
         Some(folder) => folder.to_owned(),
         None => fresh(stem),
@@ -21,25 +24,29 @@ pub(super) fn make(asked: Option<&Path>, stem: &str, force: bool) -> Result<Path
     check(&folder, force)?;
     let shown = folder.display();
     fs::create_dir_all(&folder)
-        .map_err(|error| format!("cannot make the output folder {shown}: {error}"))?;
+        .map_err(|error| format!("cannot make the output folder {shown}: {error}"))
+        .map_err(refused(Code::Unwritable))?;
     let probe = folder.join(PROBE);
     fs::write(&probe, b"")
         .and_then(|()| fs::remove_file(&probe))
-        .map_err(|error| format!("cannot write into the output folder {shown}: {error}"))?;
+        .map_err(|error| format!("cannot write into the output folder {shown}: {error}"))
+        .map_err(refused(Code::Unwritable))?;
     Ok(folder)
 }
 
 /// Refuses a file, and without `force` a folder that holds something.
-pub(super) fn check(folder: &Path, force: bool) -> Result<(), String> {
+pub(super) fn check(folder: &Path, force: bool) -> Result<(), Failure> {
     let shown = folder.display();
     if folder.is_file() {
-        return Err(format!("the output folder {shown} is a file; name another with -o"));
+        let message = format!("the output folder {shown} is a file; name another with -o");
+        return Err(Failure::refused(Code::FolderInUse, message));
     }
     if !is_empty(folder) && !force {
-        return Err(format!(
+        let message = format!(
             "the output folder {shown} exists and is not empty; name another with -o, or use \
              --force to replace files of the same names"
-        ));
+        );
+        return Err(Failure::refused(Code::FolderInUse, message));
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ mod check;
 mod checkpoint_file;
 mod collect;
 mod describe;
+mod explain;
 mod export;
 mod folder;
 mod interrupt;
@@ -19,16 +20,19 @@ mod sweep;
 mod talk;
 mod view;
 
+use std::fmt;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{CommandFactory, Parser};
+use landform_sim::code::Code;
 use landform_sim::registry::Registry;
 
 use arguments::{Arguments, Command};
 pub(crate) use folder::{write_json, write_text};
 
-/// How a command ended without doing what it was asked.
+/// How a command ended without doing what it was asked. The message begins with its code:
+/// `error[L0201]: ...`.
 pub(crate) enum Failure {
     /// The input was refused: exit status 2.
     Refused(String),
@@ -36,6 +40,57 @@ pub(crate) enum Failure {
     Failed(String),
     /// The user interrupted: exit status 130.
     Interrupted(String),
+}
+
+impl Failure {
+    /// The input was refused.
+    pub fn refused(code: Code, message: impl fmt::Display) -> Self {
+        Self::Refused(coded(code, &message.to_string()))
+    }
+
+    /// The run failed.
+    pub fn failed(code: Code, message: impl fmt::Display) -> Self {
+        Self::Failed(coded(code, &message.to_string()))
+    }
+
+    /// The user interrupted.
+    pub fn interrupted(message: impl fmt::Display) -> Self {
+        Self::Interrupted(coded(Code::Interrupted, &message.to_string()))
+    }
+
+    /// The message.
+    pub fn message(&self) -> &str {
+        match self {
+            Self::Refused(message) | Self::Failed(message) | Self::Interrupted(message) => message,
+        }
+    }
+
+    /// The exit status.
+    fn status(&self) -> u8 {
+        match self {
+            Self::Refused(_) => 2,
+            Self::Failed(_) => 1,
+            Self::Interrupted(_) => 130,
+        }
+    }
+}
+
+/// The message with its code in front. What shows its place in a scenario has a code already.
+fn coded(code: Code, message: &str) -> String {
+    match message.starts_with("error[") {
+        true => message.to_owned(),
+        false => format!("error[{code}]: {message}"),
+    }
+}
+
+/// Makes refusals of messages.
+pub(crate) fn refused<M: fmt::Display>(code: Code) -> impl Fn(M) -> Failure + Copy {
+    move |message| Failure::refused(code, message)
+}
+
+/// Makes failures of messages.
+pub(crate) fn failed<M: fmt::Display>(code: Code) -> impl Fn(M) -> Failure + Copy {
+    move |message| Failure::failed(code, message)
 }
 
 /// What a command returns.
@@ -68,13 +123,17 @@ impl Program {
     /// Does what the command line says. Exit status: 0 done, 1 the run failed, 2 the input was
     /// refused, 130 interrupted.
     pub fn run(self) -> ExitCode {
-        let arguments = Arguments::parse();
+        let arguments = match Arguments::try_parse() {
+            Ok(arguments) => arguments,
+            Err(error) => return talk::end(&error),
+        };
         let registry = Arc::new(self.registry);
         let outcome = match arguments.command {
             Command::Run(arguments) => run::run(&arguments, &registry),
             Command::Check(arguments) => check::check(&arguments, &registry),
             Command::List { kind } => list::list(kind, &registry),
             Command::Describe { name, json } => describe::describe(&name, json, &registry),
+            Command::Explain { code } => explain::explain(code.as_deref()),
             Command::Schema => schema(&registry),
             Command::Export(arguments) => export::export(&arguments),
             Command::View(arguments) => view::view(&arguments),
@@ -89,14 +148,13 @@ impl Program {
                 talk::say(&String::from_utf8_lossy(&script))
             }
         };
-        let (message, code) = match outcome {
-            Ok(()) => return ExitCode::SUCCESS,
-            Err(Failure::Refused(message)) => (message, 2),
-            Err(Failure::Failed(message)) => (message, 1),
-            Err(Failure::Interrupted(message)) => (message, 130),
-        };
-        talk::complain(&message);
-        ExitCode::from(code)
+        match outcome {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => {
+                talk::complain(failure.message());
+                ExitCode::from(failure.status())
+            }
+        }
     }
 }
 

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use landform_sim::code::Code;
 use landform_sim::registry::Registry;
 use landform_sim::simulation::Limits;
 use serde::Serialize;
 
 use super::arguments::ReproduceArguments;
-use super::{Failure, Outcome, folder, interrupt, memory, talk};
+use super::{Failure, Outcome, failed, folder, interrupt, memory, refused, talk};
 use crate::reproduce::{Entry, FigureReport, Record, Verdict, Work, all, find, page};
 
 /// Where the thesis' target files lie, from where the program is called.
@@ -26,21 +27,20 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
     let data = arguments.data.as_deref();
     if let Some(missing) = data.filter(|data| !data.is_dir()) {
         let message = format!("there is no folder {}", missing.display());
-        return Err(Failure::Refused(message));
+        return Err(Failure::refused(Code::Arguments, message));
     }
     let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let jobs = arguments.jobs.map_or_else(processors, usize::from);
-    let memory_bytes = memory::limit(None).map_err(Failure::Refused)? / jobs.max(1) as u64;
+    let memory_bytes = memory::limit(None).map_err(refused(Code::Arguments))? / jobs.max(1) as u64;
     let limits = Limits { memory_bytes };
-    let entries = entries(arguments, registry, limits).map_err(Failure::Refused)?;
+    let entries = entries(arguments, registry, limits).map_err(refused(Code::Figure))?;
     let folder = folder::make(
         arguments.output.as_deref(),
         "reproduction",
         arguments.force || arguments.resume,
-    )
-    .map_err(Failure::Refused)?;
+    )?;
     let record = if arguments.resume { Record::read(&folder) } else { Ok(Record::new()) };
-    let record = record.map_err(Failure::Refused)?;
+    let record = record.map_err(refused(Code::DamagedFile))?;
     interrupt::watch();
     let work = Work {
         entries: &entries,
@@ -53,8 +53,8 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
         stop: &interrupt::asked,
     };
     let reports = work.reproduce(record).map_err(|message| match interrupt::asked() {
-        true => Failure::Interrupted(format!("{message}; go on with --resume")),
-        false => Failure::Failed(message),
+        true => Failure::interrupted(format!("{message}; go on with --resume")),
+        false => Failure::failed(Code::FailedFigure, message),
     })?;
     for report in &reports {
         let absent = report.targets.iter().filter(|target| target.verdict == Verdict::Absent);
@@ -66,9 +66,9 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
     }
     let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: &reports };
     let [json, html] = ["report.json", "report.html"].map(|name| folder.join(name));
-    folder::write_json(&json, &reproduction).map_err(Failure::Failed)?;
-    let page = page(&entries, &reports, &folder).map_err(Failure::Failed)?;
-    folder::write_text(&html, &page).map_err(Failure::Failed)?;
+    folder::write_json(&json, &reproduction).map_err(failed(Code::Unwritable))?;
+    let page = page(&entries, &reports, &folder).map_err(failed(Code::Unwritable))?;
+    folder::write_text(&html, &page).map_err(failed(Code::Unwritable))?;
     talk::say(&format!("report {}\nreport {}\n", json.display(), html.display()))
 }
 

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use landform_sim::checkpoint::Checkpoint;
+use landform_sim::code::Code;
 use landform_sim::scenario::ScenarioSource;
 use serde_json::Value;
 
-use super::{checkpoint_file, folder, talk};
+use super::{Failure, checkpoint_file, folder, refused, talk};
 
 /// What is left to do in the folder of a run.
 pub(super) enum Rest {
@@ -23,7 +24,7 @@ pub(super) enum Rest {
 ///
 /// # Errors
 /// A message that says why the run cannot go on, and what to do.
-pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, String> {
+pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Failure> {
     let shown = folder.display();
     if is_finished(folder) {
         let text = fs::read_to_string(folder.join("scenario.ron")).unwrap_or_default();
@@ -31,17 +32,19 @@ pub(super) fn rest(folder: &Path, source: &ScenarioSource) -> Result<Rest, Strin
         return Ok(Rest::Nothing);
     }
     if checkpoint_file::path(folder).exists() {
-        let mut checkpoint = checkpoint_file::read(folder)?;
+        let mut checkpoint =
+            checkpoint_file::read(folder).map_err(refused(Code::DamagedCheckpoint))?;
         let text = checkpoint_file::take_scenario(&mut checkpoint);
         same_scenario(folder, source.text(), &text)?;
         return Ok(Rest::After(checkpoint));
     }
     let begun = checkpoint_file::folder(folder).is_dir() || folder::is_empty(folder);
     if !begun {
-        return Err(format!(
+        let message = format!(
             "there is no checkpoint in {shown} to resume from; run the scenario again without \
              --resume, into another folder or with --force"
-        ));
+        );
+        return Err(Failure::refused(Code::NoCheckpoint, message));
     }
     if let Ok(text) = fs::read_to_string(folder.join("scenario.ron")) {
         same_scenario(folder, source.text(), &text)?;
@@ -57,7 +60,7 @@ fn is_finished(folder: &Path) -> bool {
 }
 
 /// Refuses another scenario than that of the run in the folder.
-fn same_scenario(folder: &Path, present: &str, before: &str) -> Result<(), String> {
+fn same_scenario(folder: &Path, present: &str, before: &str) -> Result<(), Failure> {
     if present == before {
         return Ok(());
     }
@@ -67,12 +70,13 @@ fn same_scenario(folder: &Path, present: &str, before: &str) -> Result<(), Strin
         Some(line) => format!("`{}`", line.trim()),
         None => "missing".to_owned(),
     };
-    Err(format!(
+    let message = format!(
         "the run in {} is one of another scenario: line {} was {} and is now {}; resume with the \
          scenario and the --set options of that run, or start a new run in another folder",
         folder.display(),
         same + 1,
         line(before),
         line(present)
-    ))
+    );
+    Err(Failure::refused(Code::OtherScenario, message))
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use landform_sim::checkpoint::Checkpoint;
+use landform_sim::code::Code;
 use landform_sim::output::OutputFile;
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
@@ -13,14 +14,15 @@ use super::arguments::RunArguments;
 use super::checkpoint_file::{self, Claim, FileKeeper};
 use super::progress_bar::Bar;
 use super::resume::{self, Rest};
-use super::{Failure, Outcome, folder, interrupt, memory, talk};
+use super::{Failure, Outcome, failed, folder, interrupt, memory, refused, talk};
 use crate::outputs::{SeriesFile, write_field};
 
 /// Runs the scenario of the arguments.
 pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome {
-    let source = open(&arguments.scenario, &arguments.set).map_err(Failure::Refused)?;
-    let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(Failure::Refused)?;
-    let pool = pool(arguments.threads).map_err(Failure::Refused)?;
+    let source = open(&arguments.scenario, &arguments.set)?;
+    let memory_bytes =
+        memory::limit(arguments.memory_limit_gib).map_err(refused(Code::Arguments))?;
+    let pool = pool(arguments.threads).map_err(refused(Code::Arguments))?;
     interrupt::watch();
     pool.install(|| {
         let mut scenario = source.parse(registry).map_err(Failure::Refused)?;
@@ -33,7 +35,7 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
             Some(folder) if arguments.resume => folder.clone(),
             asked => {
                 let stem = arguments.scenario.file_stem().unwrap_or_default().to_string_lossy();
-                folder::make(asked.as_deref(), &stem, arguments.force).map_err(Failure::Refused)?
+                folder::make(asked.as_deref(), &stem, arguments.force)?
             }
         };
         let Some(claim) = begin(arguments, &folder, &mut simulation, &source)? else {
@@ -44,7 +46,7 @@ pub(super) fn run(arguments: &RunArguments, registry: &Arc<Registry>) -> Outcome
         let done = run_in(&folder, &mut simulation, &source, &mut bar);
         bar.finish();
         claim.release(&folder, done.as_ref().is_ok_and(|(_, result)| result.is_ok()));
-        let (report, result) = done.map_err(Failure::Failed)?;
+        let (report, result) = done.map_err(failed(Code::Unwritable))?;
         result.map_err(|error| failure(error, &folder, &arguments.scenario))?;
         talk::say(&summary(&report, &folder))
     })
@@ -59,16 +61,16 @@ fn begin(
     source: &ScenarioSource,
 ) -> Result<Option<Claim>, Failure> {
     let rest = match arguments.resume {
-        true => resume::rest(folder, source).map_err(Failure::Refused)?,
+        true => resume::rest(folder, source)?,
         false => Rest::Everything,
     };
     if matches!(rest, Rest::Nothing) && !checkpoint_file::folder(folder).is_dir() {
         return Ok(None);
     }
-    let claim = Claim::new(folder).map_err(Failure::Refused)?;
+    let claim = Claim::new(folder)?;
     match rest {
         Rest::After(checkpoint) => take_up(checkpoint, folder, simulation)?,
-        Rest::Everything => claim.clear(folder).map_err(Failure::Refused)?,
+        Rest::Everything => claim.clear(folder).map_err(refused(Code::Unwritable))?,
         Rest::Nothing => {
             // The run was killed while it cleaned up.
             claim.release(folder, true);
@@ -92,11 +94,12 @@ fn take_up(
 ) -> Result<(), Failure> {
     simulation.resume(checkpoint, folder).map_err(|damage| {
         let path = checkpoint_file::path(folder);
-        Failure::Refused(format!(
+        let message = format!(
             "cannot resume from {}: {damage}; start a new run in another folder, or here with \
              --force",
             path.display()
-        ))
+        );
+        Failure::refused(damage.code(), message)
     })
 }
 
@@ -120,13 +123,14 @@ pub(super) fn run_in(
 }
 
 /// Opens a scenario and makes the edits of the command line.
-pub(super) fn open(path: &Path, edits: &[String]) -> Result<ScenarioSource, String> {
-    let mut source = ScenarioSource::open(path)?;
+pub(super) fn open(path: &Path, edits: &[String]) -> Result<ScenarioSource, Failure> {
+    let mut source = ScenarioSource::open(path).map_err(refused(Code::UnreadableScenario))?;
     for edit in edits {
         let (path, value) = edit.split_once('=').ok_or_else(|| {
-            format!("--set {edit}: write it as PATH=VALUE, domain.spacing_m=5.0 say")
+            let message = format!("--set {edit}: write it as PATH=VALUE, domain.spacing_m=5.0 say");
+            Failure::refused(Code::Edit, message)
         })?;
-        source.set(path, value)?;
+        source.set(path, value).map_err(Failure::Refused)?;
     }
     Ok(source)
 }
@@ -145,13 +149,13 @@ pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, String> 
 fn failure(error: RunError, folder: &Path, scenario: &Path) -> Failure {
     let message = format!("{error}\nwhat was done until then is in {}", folder.display());
     match error {
-        RunError::Interrupted { kept: true, .. } => Failure::Interrupted(format!(
+        RunError::Interrupted { kept: true, .. } => Failure::interrupted(format!(
             "{message}\ngo on with: landform run {} -o {} --resume (and the same --set and --seed)",
             scenario.display(),
             folder.display()
         )),
-        RunError::Interrupted { .. } => Failure::Interrupted(message),
-        _ => Failure::Failed(message),
+        RunError::Interrupted { .. } => Failure::interrupted(message),
+        error => Failure::failed(error.code(), message),
     }
 }
 

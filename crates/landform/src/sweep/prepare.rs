@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use landform_sim::code::Code;
 use landform_sim::parameters::Problem;
 use landform_sim::registry::Registry;
 use landform_sim::scenario::ScenarioSource;
@@ -42,7 +43,8 @@ pub(crate) fn prepare(
 ) -> Result<Prepared, String> {
     let source = SweepSource::open(path)?;
     let sweep = source.parse(path)?;
-    let (parameters, runs) = runs(&sweep).map_err(|problem| source.render(&problem))?;
+    let (parameters, runs) =
+        runs(&sweep).map_err(|problem| source.render(&problem.code(Code::Sweep)))?;
     let names: Vec<String> = parameters.iter().map(|varied| varied.name.clone()).collect();
     check_plots(&sweep, &names).map_err(|problem| source.render(&problem))?;
     let mut prepared = Prepared {
@@ -93,19 +95,20 @@ fn refusal(
     });
     let place = varied.map_or("scenario", |(varied, _)| &varied.place);
     let message = format!("run {}{value} is refused", earlier + 1);
-    source.render(&Problem::new(place, message, "")) + "\n" + why
+    source.render(&Problem::new(place, message, "").code(Code::SweptRun)) + "\n" + why
 }
 
 /// The scenario with the changes that all runs share.
 fn base(sweep: &Sweep, source: &SweepSource) -> Result<ScenarioSource, String> {
     let mut base = ScenarioSource::open(&source.folder().join(&sweep.scenario)).map_err(|why| {
         let expected = "the path of a scenario, relative to this file";
-        source.render(&Problem::new("scenario", why, expected))
+        source.render(&Problem::new("scenario", why, expected).code(Code::UnreadableScenario))
     })?;
     for (index, change) in sweep.set.iter().enumerate() {
         base.set(&change.path, change.value.trim().get_ron()).map_err(|why| {
             let message = "the scenario cannot be changed so";
-            source.render(&Problem::new(format!("set[{index}]"), message, "")) + "\n" + &why
+            let problem = Problem::new(format!("set[{index}]"), message, "").code(Code::Edit);
+            source.render(&problem) + "\n" + &why
         })?;
     }
     Ok(base)
@@ -142,7 +145,8 @@ fn check_plots(sweep: &Sweep, names: &[String]) -> Result<(), Problem> {
                     [] => "a sweep that varies something".to_owned(),
                     names => format!("one of {}", names.join(", ")),
                 };
-                let problem = Problem::new(format!("plots[{index}].{field}"), message, expected);
+                let problem = Problem::new(format!("plots[{index}].{field}"), message, expected)
+                    .code(Code::NotInRun);
                 return Err(
                     match landform_sim::text::nearest(name, names.iter().map(String::as_str)) {
                         Some(guess) => problem.help(format!("did you mean {guess:?}?")),

@@ -56,7 +56,8 @@ struct Positive;
 impl<'de> Deserialize<'de> for Positive {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let refused = |x: f64| {
-            let message = Diagnostic::new(format!("{x} is too small")).expected("more than 0");
+            let message = Diagnostic::new(Code::OutOfRange, format!("{x} is too small"))
+                .expected("more than 0");
             de::Error::custom(message.help("take 1"))
         };
         f64::deserialize(deserializer)
@@ -233,7 +234,7 @@ fn near_names_are_suggested_and_own_readers_keep_their_help() {
 fn errors_in_set_values_show_the_argument_and_others_the_line_of_the_file() {
     let source = Source::new("x.ron", "(\n  rate: 1,\n  count: x,\n)");
     let first = set(&source, "rate", "fast").unwrap();
-    let rate = "error: rate cannot be fast\n --> --set rate=fast\n |\n | rate=fast\n |      ^^^^\n  \
+    let rate = "error[L0105]: rate cannot be fast\n --> --set rate=fast\n |\n | rate=fast\n |      ^^^^\n  \
                 expected: a number\n";
     assert_eq!(ron_diagnostic(&first, &error_of(first.text())).render(&first), rate);
     let second = set(&source, "rate", "100.25").unwrap();

@@ -32,6 +32,7 @@ pub(crate) use subject::{Subject, water_of};
 pub(crate) use text::{picture_text, problem, write_picture};
 
 use landform_graph::Lattice;
+use landform_sim::code::Code;
 use landform_sim::parameters::Problem;
 use landform_view::plot::Figure;
 use landform_view::relief::shaded_relief;
@@ -257,7 +258,9 @@ impl Look {
             let message = format!("{} x {} nodes span no surface", nodes[0], nodes[1]);
             return Err(Problem::new("look", message, "at least 2 x 2 nodes, or the look Flat"));
         }
-        self.trial().map(|_| ()).map_err(|error| Problem::new("look", error.to_string(), ""))
+        let refuse =
+            |error: ViewError| Problem::new("look", error.to_string(), "").code(Code::Picture);
+        self.trial().map(|_| ()).map_err(refuse)
     }
 
     /// A tiny picture with all the settings, for what only drawing finds wrong.

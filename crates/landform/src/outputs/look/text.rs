@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use landform_sim::code::Code;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
 use landform_view::{Image, ViewError};
 
 /// A failure to draw as a problem of the output that wanted the picture.
 pub(crate) fn problem(error: &ViewError) -> Problem {
-    Problem::new("", error.to_string(), "")
+    Problem::new("", error.to_string(), "").code(Code::Picture)
 }
 
 /// What goes into the text of a picture of a field: where it came from and its scale.

@@ -6,42 +6,44 @@ mod work;
 
 use std::sync::Arc;
 
+use landform_sim::code::Code;
 use landform_sim::registry::Registry;
 use landform_sim::simulation::Limits;
 
 use super::arguments::SweepArguments;
 use super::collect;
-use super::{Failure, Outcome, memory, talk};
+use super::{Failure, Outcome, failed, memory, refused, talk};
 use crate::sweep::{Prepared, prepare};
 use share::Share;
 use work::{Limit, work};
 
 /// Runs the sweep of the arguments, or lists its runs.
 pub(super) fn sweep(arguments: &SweepArguments, registry: &Arc<Registry>) -> Outcome {
-    let refused = Failure::Refused;
-    let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(refused)?;
-    let limit = limit(arguments, memory_bytes).map_err(refused)?;
-    let share = Share::parse(arguments.index.as_deref()).map_err(refused)?;
-    let prepared = prepare(&arguments.sweep, registry, Limits { memory_bytes }).map_err(refused)?;
-    check_disk(&prepared, arguments.disk_limit_gib).map_err(refused)?;
+    let unusable = refused(Code::Arguments);
+    let memory_bytes = memory::limit(arguments.memory_limit_gib).map_err(unusable)?;
+    let limit = limit(arguments, memory_bytes).map_err(unusable)?;
+    let share = Share::parse(arguments.index.as_deref()).map_err(unusable)?;
+    let prepared = prepare(&arguments.sweep, registry, Limits { memory_bytes })
+        .map_err(refused(Code::UnreadableScenario))?;
+    check_disk(&prepared, arguments.disk_limit_gib)?;
     if arguments.dry_run {
         return talk::say(&(listing(&prepared) + &estimate(&prepared)));
     }
-    let folder = place::make(arguments, &prepared.plan, share).map_err(refused)?;
-    let _claim = place::claim(&folder, share).map_err(refused)?;
+    let folder = place::make(arguments, &prepared.plan, share)?;
+    let _claim = place::claim(&folder, share).map_err(refused(Code::Busy))?;
     talk::tell(estimate(&prepared).trim_end());
     let todo: Vec<usize> = (0..prepared.plan.runs.len())
         .filter(|&index| share.has(index) && !place::is_done(&prepared.plan, index, &folder))
         .collect();
     let done = work(&prepared, &todo, &folder, registry, limit, arguments.quiet);
     let results = match share.is_all() {
-        true => Some(collect::gather(&prepared.plan, &folder).map_err(Failure::Failed)?),
+        true => Some(collect::gather(&prepared.plan, &folder).map_err(failed(Code::Unwritable))?),
         false => None,
     };
     if done.interrupted {
         let left = todo.len() - done.ended;
         let (sweep, shown) = (arguments.sweep.display(), folder.display());
-        return Err(Failure::Interrupted(format!(
+        return Err(Failure::interrupted(format!(
             "interrupted: {left} runs are left; `landform sweep {sweep} -o {shown}` goes on"
         )));
     }
@@ -60,9 +62,10 @@ fn end_of_share(done: &work::Done, folder: &std::path::Path) -> Outcome {
     ))?;
     match done.failed {
         0 => Ok(()),
-        failed => Err(Failure::Failed(format!(
-            "{failed} runs failed; `run.json` in their folders says why"
-        ))),
+        failed => {
+            let message = format!("{failed} runs failed; `run.json` in their folders says why");
+            Err(Failure::failed(Code::FailedRuns, message))
+        }
     }
 }
 
@@ -79,18 +82,22 @@ fn limit(arguments: &SweepArguments, memory_bytes: u64) -> Result<Limit, String>
     Ok(Limit { jobs, threads: threads.div_ceil(jobs), memory_bytes })
 }
 
-fn check_disk(prepared: &Prepared, most_gib: f64) -> Result<(), String> {
+fn check_disk(prepared: &Prepared, most_gib: f64) -> Result<(), Failure> {
     if !(most_gib.is_finite() && most_gib > 0.0) {
-        return Err(format!("--disk-limit-gib is {most_gib}; it must be a positive number"));
+        let message = format!("--disk-limit-gib is {most_gib}; it must be a positive number");
+        return Err(Failure::refused(Code::Arguments, message));
     }
     let needed = gib(disk_bytes(prepared));
     match needed <= most_gib {
         true => Ok(()),
-        false => Err(format!(
-            "the final fields of {} runs need {needed:.1} GiB on the disk and {most_gib} GiB may be \
-             used; make the domain smaller, the runs fewer, or raise --disk-limit-gib",
-            prepared.plan.runs.len(),
-        )),
+        false => {
+            let message = format!(
+                "the final fields of {} runs need {needed:.1} GiB on the disk and {most_gib} GiB \
+                 may be used; make the domain smaller, the runs fewer, or raise --disk-limit-gib",
+                prepared.plan.runs.len(),
+            );
+            Err(Failure::refused(Code::Disk, message))
+        }
     }
 }
 

@@ -3,9 +3,11 @@
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
+use landform_sim::code::Code;
+
 use super::share::Share;
 use crate::program::arguments::SweepArguments;
-use crate::program::folder;
+use crate::program::{Failure, folder, refused};
 use crate::sweep::{ENDING, Outcome, Plan};
 
 /// Makes the folder and writes the plan into it, or goes on in one that holds the same sweep.
@@ -16,26 +18,27 @@ pub(super) fn make(
     arguments: &SweepArguments,
     plan: &Plan,
     share: Share,
-) -> Result<PathBuf, String> {
+) -> Result<PathBuf, Failure> {
     let asked = arguments.output.as_deref();
     let Some(folder) = asked else {
         if !share.is_all() {
-            return Err("--index needs -o: all shares write into one folder".to_owned());
+            let message = "--index needs -o: all shares write into one folder";
+            return Err(Failure::refused(Code::Arguments, message));
         }
         return begin(&folder::fresh(&stem(&arguments.sweep)), plan);
     };
-    match Plan::read(folder)? {
+    match Plan::read(folder).map_err(refused(Code::OtherSweep))? {
         None => begin(folder, plan),
         Some(earlier) => {
             if let Some(reason) = plan.differs_from(&earlier) {
-                return Err(format!(
-                    "{} holds another sweep: {reason}; name another folder with -o",
-                    folder.display()
-                ));
+                let shown = folder.display();
+                let message =
+                    format!("{shown} holds another sweep: {reason}; name another folder with -o");
+                return Err(Failure::refused(Code::OtherSweep, message));
             }
             // Titles and plots may change: they concern no run.
             if earlier != *plan && share.is_all() {
-                plan.write(folder)?;
+                plan.write(folder).map_err(refused(Code::Unwritable))?;
             }
             Ok(folder.to_owned())
         }
@@ -66,13 +69,13 @@ pub(super) fn is_done(plan: &Plan, index: usize, folder: &Path) -> bool {
     Outcome::is_done(&folder.join(plan.folder_of(run)), &run.digest)
 }
 
-fn begin(folder: &Path, plan: &Plan) -> Result<PathBuf, String> {
+fn begin(folder: &Path, plan: &Plan) -> Result<PathBuf, Failure> {
     // Shares that start together make the folder together.
     let waiting = fs::read_dir(folder).is_ok_and(|mut entries| {
         entries.all(|entry| entry.is_ok_and(|entry| is_ours(&entry.file_name().to_string_lossy())))
     });
     let made = folder::make(Some(folder), "", waiting)?;
-    plan.write(&made)?;
+    plan.write(&made).map_err(refused(Code::Unwritable))?;
     Ok(made)
 }
 

@@ -146,7 +146,7 @@ fn one(
         let scenario = source.parse(registry)?;
         let limits = Limits { memory_bytes: limit.memory_bytes };
         let mut simulation = Simulation::new(scenario, source.folder(), limits)
-            .map_err(|problem| problem.to_string())?;
+            .map_err(|problem| format!("{}: {problem}", problem.code))?;
         let mut hook = |_: &Progress<'_>| match interrupt::asked() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -154,7 +154,7 @@ fn one(
         match run::run_in(folder, &mut simulation, &source, &mut hook)?.1 {
             Ok(()) => Ok(true),
             Err(RunError::Interrupted { .. }) => Ok(false),
-            Err(error) => Err(error.to_string()),
+            Err(error) => Err(format!("{}: {error}", error.code())),
         }
     })
 }
