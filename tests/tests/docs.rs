@@ -74,6 +74,19 @@ fn paths_that_are_named_exist() {
 }
 
 #[test]
+fn sources_that_are_cited_are_in_the_bibliography() {
+    let read = |path: &str| fs::read_to_string(repository().join(path)).expect("a text");
+    let (page, sources) = (read("docs/src/cite.md"), read("docs/references.bib"));
+    let rows = page.lines().filter(|line| line.starts_with('|'));
+    let cells = rows.filter_map(|row| row.trim_end_matches('|').rsplit('|').next());
+    let keys: Vec<&str> = cells.flat_map(|cell| cell.split('`').skip(1).step_by(2)).collect();
+    assert!(keys.len() > 20, "{keys:?}");
+    for key in keys {
+        assert!(sources.contains(&format!("{{{key},")), "no source is called {key}");
+    }
+}
+
+#[test]
 fn scenarios_in_the_text_are_good() {
     let registry = Arc::new(landform::registry());
     for (page, text) in pages() {
