@@ -74,6 +74,17 @@ fn paths_that_are_named_exist() {
 }
 
 #[test]
+fn the_readme_and_the_architecture_name_every_crate() {
+    for folder in fs::read_dir(repository().join("crates")).expect("crates") {
+        let name = folder.expect("a folder").file_name().to_string_lossy().into_owned();
+        for page in ["README.md", "docs/src/architecture.md"] {
+            let text = fs::read_to_string(repository().join(page)).expect("a page");
+            assert!(text.contains(&name), "{page} does not name {name}");
+        }
+    }
+}
+
+#[test]
 fn sources_that_are_cited_are_in_the_bibliography() {
     let read = |path: &str| fs::read_to_string(repository().join(path)).expect("a text");
     let (page, sources) = (read("docs/src/cite.md"), read("docs/references.bib"));
