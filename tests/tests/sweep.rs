@@ -201,10 +201,10 @@ fn a_run_that_fails_says_why_and_the_others_go_on() {
     );
     let ended = call(&scratch, "sweep f.sweep.ron -o o");
     assert_eq!(ended.status, Some(1), "{ended:?}");
-    assert!(ended.stderr.contains("1 runs failed, run 2 by: initial[0]"), "{ended:?}");
+    assert!(ended.stderr.contains("1 runs failed, run 2 by: L0305: initial[0]"), "{ended:?}");
     let table = fs::read_to_string(scratch.path("o/table.csv")).expect("a table");
     let last = table.lines().last().unwrap();
-    assert!(last.starts_with("2,") && last.contains(",90.0,failed,initial[0]"), "{table}");
+    assert!(last.starts_with("2,") && last.contains(",90.0,failed,L0305: initial[0]"), "{table}");
     assert!(table.lines().nth(1).unwrap().contains(",done,,8,"), "{table}");
 }
 
