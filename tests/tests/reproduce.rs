@@ -200,11 +200,24 @@ fn a_chapter_is_reproduced_as_one() {
     let told = run("--chapter 3 --quick -o o").good();
     let [second, tenth] = ["figure 3.2", "figure 3.10"].map(|id| told.find(id).expect(id));
     assert!(second < tenth && !told.contains("B:"), "{told}");
+    assert!(
+        told.contains("4 numbers with a band: 2 reproduced (50 %), 0 partly, 2 missed"),
+        "{told}"
+    );
+    let text = fs::read_to_string(scratch.path("o/report.md")).expect("a text");
+    for part in [
+        "| Chapter 3 | 2 | 2 | 0 | 2 | 0 | 0 |",
+        "### figure 3.10: dunes < hills\n\n`fig_3_10`",
+        "| at least 1000 | **missed** |",
+        "- highest sand, end / start: no dune grows a thousandfold.",
+    ] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
     let page = fs::read_to_string(scratch.path("o/report.html")).expect("a page");
     for part in [
         "figure 3.2: dunes &lt; hills",
         "src=\"data:image/",
-        "missed 2",
+        "missed 2<",
         "<h2 class=\"part\">Chapter 3</h2>",
         "slab_m: 3.0",
         "<circle",

@@ -10,7 +10,9 @@ use serde::Serialize;
 
 use super::arguments::ReproduceArguments;
 use super::{Failure, Outcome, failed, folder, interrupt, memory, refused, talk};
-use crate::reproduce::{Entry, FigureReport, Record, Verdict, Work, all, find, page};
+use crate::reproduce::{
+    Entry, FigureReport, Record, Tally, Verdict, Work, all, find, markdown, page,
+};
 
 /// Where the thesis' target files lie, from where the program is called.
 const THESIS: &str = "scenarios/thesis";
@@ -65,11 +67,14 @@ pub(super) fn reproduce(arguments: &ReproduceArguments, registry: &Arc<Registry>
         talk::say(&table(report))?;
     }
     let reproduction = Reproduction { version: env!("CARGO_PKG_VERSION"), figures: &reports };
-    let [json, html] = ["report.json", "report.html"].map(|name| folder.join(name));
+    let [json, html, text] =
+        ["report.json", "report.html", "report.md"].map(|name| folder.join(name));
     folder::write_json(&json, &reproduction).map_err(failed(Code::Unwritable))?;
     let page = page(&entries, &reports, &folder).map_err(failed(Code::Unwritable))?;
     folder::write_text(&html, &page).map_err(failed(Code::Unwritable))?;
-    talk::say(&format!("report {}\nreport {}\n", json.display(), html.display()))
+    folder::write_text(&text, &markdown(&entries, &reports)).map_err(failed(Code::Unwritable))?;
+    let written = [json, html, text].map(|path| format!("report {}\n", path.display())).concat();
+    talk::say(&format!("{}\n{written}", Tally::of(&reports)))
 }
 
 /// The figures that the arguments ask for.

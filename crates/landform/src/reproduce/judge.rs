@@ -22,6 +22,23 @@ pub enum Verdict {
     Absent,
 }
 
+impl Verdict {
+    /// All of them, from the best.
+    pub const ALL: [Self; 5] =
+        [Self::Reproduced, Self::Partly, Self::Missed, Self::Printed, Self::Absent];
+
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Partly => "partly",
+            Self::Missed => "missed",
+            Self::Printed => "printed",
+            Self::Absent => "absent",
+        }
+    }
+}
+
 /// Our numbers beside those of a figure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FigureReport {

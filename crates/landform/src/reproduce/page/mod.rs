@@ -8,16 +8,7 @@ mod summary;
 use std::fmt::Write;
 use std::path::Path;
 
-use super::{Entry, FigureReport, Verdict};
-
-/// All verdicts, in the order in which the page counts them.
-const VERDICTS: [(Verdict, &str); 5] = [
-    (Verdict::Reproduced, "reproduced"),
-    (Verdict::Partly, "partly"),
-    (Verdict::Missed, "missed"),
-    (Verdict::Printed, "printed"),
-    (Verdict::Absent, "absent"),
-];
+use super::{Entry, FigureReport, Tally, Verdict};
 
 /// The page: how many numbers are reproduced, then every figure with its pictures, its numbers beside
 /// those of the thesis, the verdicts, of which one may be chosen, and the scenarios that made it.
@@ -51,19 +42,14 @@ pub fn page(entries: &[Entry], reports: &[FigureReport], output: &Path) -> Resul
 
 /// The buttons that choose a verdict.
 fn choice(reports: &[FigureReport]) -> String {
-    let all: usize = reports.iter().map(|report| report.targets.len()).sum();
+    let tally = Tally::of(reports);
+    let all = tally.all();
     let mut text = format!("<nav><button class=\"on\" data-only=\"all\">all {all}</button>");
-    for (verdict, name) in VERDICTS {
-        let count = count(reports, verdict);
+    for verdict in Verdict::ALL {
+        let (name, count) = (verdict.name(), tally.count(verdict));
         let _ = write!(text, "<button data-only=\"{name}\">{name} {count}</button>");
     }
     text + "</nav>\n"
-}
-
-/// How many numbers of some figures have a verdict.
-fn count(reports: &[FigureReport], verdict: Verdict) -> usize {
-    let targets = reports.iter().flat_map(|report| &report.targets);
-    targets.filter(|target| target.verdict == verdict).count()
 }
 
 /// Text that a page shows as it is.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::{VERDICTS, escape, picture, strip};
+use super::{escape, picture, strip};
 use crate::reproduce::{Entry, FigureReport, TargetReport};
 
 /// A figure: what it shows, its pictures, its numbers, and the scenarios that made it.
@@ -90,8 +90,7 @@ fn shown_path(path: &Path) -> String {
 }
 
 fn row(target: &TargetReport, strip: &str) -> String {
-    let name =
-        VERDICTS.iter().find(|(verdict, _)| *verdict == target.verdict).map_or("", |of| of.1);
+    let name = target.verdict.name();
     let [thesis, ours, seeds] = target.columns();
     let reason = match target.reason.as_str() {
         "" => String::new(),
