@@ -159,7 +159,10 @@ fn several_files_are_an_array_and_a_wrong_one_does_not_stop_the_others() {
     write_hills(&scratch.path("b.asc"), 40, 40);
     let ended = call(&scratch, "a.tif none.tif b.asc --json");
     assert_eq!(ended.status, Some(2));
-    assert!(ended.stderr.starts_with("error[L0401]: cannot read none.tif: No such file"), "{ended:?}");
+    assert!(
+        ended.stderr.starts_with("error[L0401]: cannot read none.tif: No such file"),
+        "{ended:?}"
+    );
     let found: Value = serde_json::from_str(&ended.stdout).expect("JSON");
     assert_eq!(found.as_array().map(Vec::len), Some(3));
     assert_eq!((&found[0]["file"], &found[2]["file"]), (&"a.tif".into(), &"b.asc".into()));
