@@ -10,10 +10,26 @@ pub(super) fn explain(name: Option<&str>) -> Outcome {
     match name {
         None => talk::say(&Code::ALL.map(line).concat()),
         Some(name) => match Code::named(name) {
-            Some(code) => talk::say(page(code)),
+            Some(code) => talk::say(&plain(page(code))),
             None => Err(Failure::refused(Code::UnknownSubject, unknown(name))),
         },
     }
+}
+
+/// The page for a terminal: blocks are set in, and their fences go.
+fn plain(page: &str) -> String {
+    let mut inside = false;
+    let mut text = String::new();
+    for line in page.lines() {
+        if line.starts_with("```") {
+            inside = !inside;
+        } else {
+            text += if inside { "    " } else { "" };
+            text += line.strip_prefix("# ").unwrap_or(line);
+            text.push('\n');
+        }
+    }
+    text
 }
 
 fn line(code: Code) -> String {
