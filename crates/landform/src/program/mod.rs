@@ -8,6 +8,7 @@ mod collect;
 mod describe;
 mod explain;
 mod export;
+mod failure;
 mod folder;
 mod interrupt;
 mod list;
@@ -20,78 +21,15 @@ mod sweep;
 mod talk;
 mod view;
 
-use std::fmt;
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::{CommandFactory, Parser};
-use landform_sim::code::Code;
 use landform_sim::registry::Registry;
 
 use arguments::{Arguments, Command};
+pub(crate) use failure::{Failure, coded, failed, refused};
 pub(crate) use folder::{write_json, write_text};
-
-/// How a command ended without doing what it was asked. The message begins with its code:
-/// `error[L0201]: ...`.
-pub(crate) enum Failure {
-    /// The input was refused: exit status 2.
-    Refused(String),
-    /// The run failed: exit status 1.
-    Failed(String),
-    /// The user interrupted: exit status 130.
-    Interrupted(String),
-}
-
-impl Failure {
-    /// The input was refused.
-    pub fn refused(code: Code, message: impl fmt::Display) -> Self {
-        Self::Refused(coded(code, &message.to_string()))
-    }
-
-    /// The run failed.
-    pub fn failed(code: Code, message: impl fmt::Display) -> Self {
-        Self::Failed(coded(code, &message.to_string()))
-    }
-
-    /// The user interrupted.
-    pub fn interrupted(message: impl fmt::Display) -> Self {
-        Self::Interrupted(coded(Code::Interrupted, &message.to_string()))
-    }
-
-    /// The message.
-    pub fn message(&self) -> &str {
-        match self {
-            Self::Refused(message) | Self::Failed(message) | Self::Interrupted(message) => message,
-        }
-    }
-
-    /// The exit status.
-    fn status(&self) -> u8 {
-        match self {
-            Self::Refused(_) => 2,
-            Self::Failed(_) => 1,
-            Self::Interrupted(_) => 130,
-        }
-    }
-}
-
-/// The message with its code in front. What shows its place in a scenario has a code already.
-fn coded(code: Code, message: &str) -> String {
-    match message.starts_with("error[") {
-        true => message.to_owned(),
-        false => format!("error[{code}]: {message}"),
-    }
-}
-
-/// Makes refusals of messages.
-pub(crate) fn refused<M: fmt::Display>(code: Code) -> impl Fn(M) -> Failure + Copy {
-    move |message| Failure::refused(code, message)
-}
-
-/// Makes failures of messages.
-pub(crate) fn failed<M: fmt::Display>(code: Code) -> impl Fn(M) -> Failure + Copy {
-    move |message| Failure::failed(code, message)
-}
 
 /// What a command returns.
 pub(crate) type Outcome = Result<(), Failure>;
@@ -128,32 +66,36 @@ impl Program {
             Err(error) => return talk::end(&error),
         };
         let registry = Arc::new(self.registry);
-        let outcome = match arguments.command {
-            Command::Run(arguments) => run::run(&arguments, &registry),
-            Command::Check(arguments) => check::check(&arguments, &registry),
-            Command::List { kind } => list::list(kind, &registry),
-            Command::Describe { name, json } => describe::describe(&name, json, &registry),
-            Command::Explain { code } => explain::explain(code.as_deref()),
-            Command::Schema => schema(&registry),
-            Command::Export(arguments) => export::export(&arguments),
-            Command::View(arguments) => view::view(&arguments),
-            Command::Analyze(arguments) => analyze::run(&arguments),
-            Command::Reproduce(arguments) => reproduce::reproduce(&arguments, &registry),
-            Command::Sweep(arguments) => sweep::sweep(&arguments, &registry),
-            Command::Collect { folder } => collect::collect(&folder),
-            Command::Completions { shell } => {
-                let mut command = Arguments::command();
-                let mut script = Vec::new();
-                clap_complete::generate(shell, &mut command, "landform", &mut script);
-                talk::say(&String::from_utf8_lossy(&script))
-            }
-        };
-        match outcome {
+        match done(arguments.command, &registry) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => {
                 talk::complain(failure.message());
                 ExitCode::from(failure.status())
             }
+        }
+    }
+}
+
+/// Does what a command asks.
+fn done(command: Command, registry: &Arc<Registry>) -> Outcome {
+    match command {
+        Command::Run(arguments) => run::run(&arguments, registry),
+        Command::Check(arguments) => check::check(&arguments, registry),
+        Command::List { kind } => list::list(kind, registry),
+        Command::Describe { name, json } => describe::describe(&name, json, registry),
+        Command::Explain { code } => explain::explain(code.as_deref()),
+        Command::Schema => schema(registry),
+        Command::Export(arguments) => export::export(&arguments),
+        Command::View(arguments) => view::view(&arguments),
+        Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments, registry),
+        Command::Sweep(arguments) => sweep::sweep(&arguments, registry),
+        Command::Collect { folder } => collect::collect(&folder),
+        Command::Completions { shell } => {
+            let mut command = Arguments::command();
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut command, "landform", &mut script);
+            talk::say(&String::from_utf8_lossy(&script))
         }
     }
 }
