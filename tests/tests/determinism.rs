@@ -131,6 +131,8 @@ const GOLDEN: &[Case] = &[
     case("CorrosionLike()", &[HILLS], TORUS, 0x07ae_c067_db3e_bdd2),
     case("CorrosionLike()", &[HILLS], ISLAND, 0x9d43_6ba6_df1b_bfec),
     case("Sandpile(grains_per_iteration: 20000)", &[], TRAY, 0xd84c_59f0_e8a4_5331),
+    case("RicePile(grains_per_iteration: 300)", &[], TRAY, 0xe0a2_5ccd_733d_1f49),
+    case("SlidingSlabs(grains_per_iteration: 3000)", &[], BELT, 0x3618_1dfe_c6b7_e65b),
     case("SlopeAreaErosion()", &[HILLS], PLATE, 0xc78e_4962_62ff_bfaa),
     case("SlopeAreaErosion(pits: Spill)", &[HILLS], PLATE, 0xad69_a2e1_f4c9_0ed2),
     case("SlopeAreaErosion()", &[VALLEYS], PLATE, 0x67e3_48b5_ff11_3df6),
@@ -204,7 +206,7 @@ impl Case {
         match self.name() {
             "CoastErosion" | "IslandPruning" | "IslandInterior" | "ImageCoastErosion" => "land",
             "LevelSetHeights" => "bed",
-            "Sandpile" => "grains",
+            "Sandpile" | "RicePile" | "SlidingSlabs" => "grains",
             "Life" => "alive",
             "LivingCells" => "cells",
             "ForestFire" => "forest",

@@ -18,7 +18,7 @@ const DUNES: &str = r#"(
         (name: "wind", processes: [Dunes(slab_m: 3.0)], stop: Iterations(24)),
         (name: "smooth", processes: [Smoothing(), Dunes(shelter: Protection())], stop: Iterations(9)),
     ],
-    metrics: [Migration(), DuneActivity(), FieldStatistic(field: "sand", statistic: Maximum)],
+    metrics: [Migration(), RidgeDrift(warm_up_iterations: 4), DuneActivity(), FieldStatistic(field: "sand", statistic: Maximum)],
     measure_every: 2,
     outputs: [
         Picture(file: "maps/map.png", when: Every(5)),
@@ -48,9 +48,14 @@ const PILES: &str = r#"(
         (name: "sand", processes: [SandLike()], stop: Iterations(20)),
         (name: "rock", processes: [CorrosionLike(), Smoothing()], stop: Iterations(20)),
         (name: "pile", processes: [Sandpile(grains_per_iteration: 900)], stop: Iterations(20)),
+        (name: "rice", processes: [RicePile(grains_per_iteration: 30)], stop: Iterations(9)),
+        (name: "slabs", processes: [SlidingSlabs(grains_per_iteration: 90)], stop: Iterations(9)),
         (name: "rest", processes: [Smoothing(diffusivity_m2: 0.1)], stop: Iterations(8)),
     ],
-    metrics: [Avalanches(), FieldStatistic(field: "bed", statistic: Mean)],
+    metrics: [
+        Avalanches(), GrainShares(warm_up_iterations: 3),
+        FieldStatistic(field: "bed", statistic: Mean),
+    ],
     outputs: [Animation(file: "grains.gif", field: "grains", look: Flat(range: (0.0, 3.0)), every: 4)],
 )"#;
 

@@ -1,11 +1,11 @@
 //! The coast against what percolation theory knows.
 
 use landform_analysis::{LevelSetEdge, Polyline, ScaleRange, divider_dimension, level_sets};
-use landform_coast::coast::{Coast, CoastSettings, Perimeter, Shore, Weakening, islands, spacings};
+use landform_coast::coast::{Coast, CoastSettings, Front, Perimeter, Weakening, islands};
 use landform_graph::{Boundary, Connectivity, Lattice};
 use landform_sim::random::RandomStream;
 
-/// A strip of land with the sea in the north, periodic from west to east.
+/// A strip of land with the sea in the south, periodic from west to east.
 struct Strip {
     lattice: Lattice,
     land: Vec<u8>,
@@ -15,7 +15,8 @@ impl Strip {
     fn new(size: [usize; 2], connectivity: Connectivity) -> Self {
         let boundary = [Boundary::Periodic, Boundary::Open];
         let lattice = Lattice::plane(size, 1.0, connectivity, boundary).unwrap();
-        let land = (0..lattice.node_count()).map(|node| u8::from(node >= size[0])).collect();
+        let inland = lattice.node_count() - size[0];
+        let land = (0..lattice.node_count()).map(|node| u8::from(node < inland)).collect();
         Self { lattice, land }
     }
 
@@ -35,9 +36,10 @@ impl Strip {
         mainland
     }
 
+    /// Nodes with the number of their row, from the south.
     fn rows(&self) -> impl Iterator<Item = (usize, usize)> {
-        let width = self.lattice.width();
-        (0..self.land.len()).map(move |node| (node, node / width))
+        let [width, height, _] = self.lattice.size();
+        (0..self.land.len()).map(move |node| (node, height - 1 - node / width))
     }
 }
 
@@ -47,19 +49,9 @@ fn noise(lattice: &Lattice, seed: u64) -> Vec<f64> {
     (0..lattice.node_count()).map(|node| random.unit(0, node, 0)).collect()
 }
 
-/// A front of gradient percolation: the share p of weak rock sinks from row to row by `1 / height`.
-struct Front {
-    /// Mean of p over the shore of the mainland: the percolation threshold.
-    threshold: f64,
-    /// Standard deviation of its rows.
-    width: f64,
-    /// Shore of the mainland.
-    hull: f64,
-    /// Shore that the sea reaches through more than the narrowest gates.
-    accessible: f64,
-}
-
-fn front(connectivity: Connectivity, width: usize, height: f64, seed: u64) -> Front {
+/// The percolation threshold and the front of gradient percolation: the share p of weak rock sinks from row
+/// to row by `1 / height`.
+fn front(connectivity: Connectivity, width: usize, height: f64, seed: u64) -> (f64, Front) {
     // Enough rows on either side of the threshold that the front never meets the ends.
     let middle = match connectivity {
         Connectivity::FourEight => 0.5,
@@ -80,47 +72,8 @@ fn front(connectivity: Connectivity, width: usize, height: f64, seed: u64) -> Fr
         ..CoastSettings::default()
     };
     strip.erode(settings, rock);
-    let mainland = strip.mainland();
-    let shore = Shore::new(&strip.lattice, &mainland);
-    let total = shore.total() as f64;
-    let moment = |of: &dyn Fn(usize) -> f64| {
-        let weighted = strip.rows().map(|(node, row)| f64::from(shore.length(node)) * of(row));
-        weighted.sum::<f64>() / total
-    };
-    let mean = moment(&|row| row as f64);
-    Front {
-        threshold: moment(&share),
-        width: moment(&|row| (row as f64 - mean).powi(2)).sqrt(),
-        hull: spacings(shore.total()),
-        accessible: accessible(&strip.lattice, &mainland),
-    }
-}
-
-/// Border of the sea that stays one node away from land and is joined to the north.
-fn accessible(lattice: &Lattice, mainland: &[u8]) -> f64 {
-    let [width, height, _] = lattice.size();
-    let clear = |node: usize| {
-        let [x, y] = [node % width, node / width];
-        (-1..=1).all(|south: isize| {
-            (-1..=1).all(|east: isize| {
-                lattice.offset([x, y, 0], [east, south, 0]).is_none_or(|other| mainland[other] == 0)
-            })
-        })
-    };
-    let sides = Lattice::plane(
-        [width, height],
-        1.0,
-        Connectivity::Four,
-        [Boundary::Periodic, Boundary::Open],
-    );
-    let sides = sides.unwrap();
-    let mut search = landform_graph::BreadthFirst::new();
-    let north: Vec<usize> = (0..width).filter(|&node| clear(node)).collect();
-    let reach = landform_graph::Reach::UNLIMITED;
-    let sea = search.collect(&sides, &north, reach, |_, edge| clear(edge.node));
-    let mut land = vec![1; mainland.len()];
-    sea.iter().for_each(|visit| land[visit.node] = 0);
-    spacings(Shore::new(&sides, &land).total())
+    let front = Front::new(&strip.lattice, &strip.land).unwrap();
+    (first - front.reach / height, front)
 }
 
 /// Slope of the least-squares line.
@@ -140,7 +93,7 @@ fn fronts_in_a_gradient_have_the_exponents_of_percolation() {
     let heights = [64.0, 128.0, 256.0, 512.0, 1024.0];
     let fronts: Vec<Front> = heights
         .iter()
-        .flat_map(|&height| (0..2).map(move |seed| front(Connectivity::Four, 4096, height, seed)))
+        .flat_map(|&height| (0..2).map(move |seed| front(Connectivity::Four, 4096, height, seed).1))
         .collect();
     let exponent = |of: fn(&Front) -> f64| {
         let points: Vec<[f64; 2]> = heights
@@ -150,7 +103,8 @@ fn fronts_in_a_gradient_have_the_exponents_of_percolation() {
             .collect();
         slope(&points)
     };
-    let found = [exponent(|front| front.width), exponent(|f| f.hull), exponent(|f| f.accessible)];
+    let found =
+        [exponent(|front| front.width), exponent(|f| f.shore), exponent(|f| f.accessible_shore)];
     let expected = [4.0 / 7.0, 3.0 / 7.0, 4.0 / 21.0];
     println!("width, hull, accessible: {found:.3?}, exactly {expected:.3?}");
     for (found, expected) in found.iter().zip(expected) {
@@ -167,7 +121,7 @@ fn without_weakening_the_sea_stops_at_the_percolation_threshold() {
         (Connectivity::FourEight, 0.5),
         (Connectivity::Eight, 0.407_254),
     ] {
-        let found = front(connectivity, 2048, 1024.0, 1).threshold;
+        let found = front(connectivity, 2048, 1024.0, 1).0;
         println!("{connectivity:?}: {found:.4}, exactly {threshold}");
         assert!((found - threshold).abs() < 0.006, "{connectivity:?}: {found}");
     }

@@ -32,7 +32,8 @@ pub fn registry() -> Registry {
         .metric::<metrics::Drainage>()
         .metric::<metrics::ValleyHeads>()
         .metric::<metrics::ValleySpacing>()
-        .metric::<metrics::CaveShape>();
+        .metric::<metrics::CaveShape>()
+        .metric::<metrics::VoxelTopology>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()

@@ -8,6 +8,7 @@
 //! - [`Perimeter`]: which shore weakens the sea; [`Weakening`]: how exposure weakens rock;
 //!   [`Wear`]: rock that gives way in time, and around events; [`Region`]: coasts of mixed kinds;
 //! - [`Shore`]: how long the shore is, and where;
+//! - [`Front`]: how rough the shore is that the sea leaves in rock which hardens inland;
 //! - [`islands`]: the pieces of land and their shores;
 //! - [`mod@reference`]: the same model, literally and slowly, for reading and for tests.
 
@@ -20,6 +21,7 @@ mod concerned;
 mod disc_sums;
 mod engine;
 mod error;
+mod front;
 mod islands;
 mod marks;
 pub mod reference;
@@ -40,6 +42,7 @@ mod withstood;
 
 pub use engine::{Coast, Events};
 pub use error::CoastError;
+pub use front::Front;
 pub use islands::{Island, islands};
 pub use regions::{MapSide, Place, Region};
 pub use settings::{CoastSettings, Perimeter, Weakening, Wear};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::Land;
 use super::erosion::{CoastRecord, CoastState};
 use super::groups::land_nodes;
-use crate::coast::{Coast, Shore, islands, spacings};
+use crate::coast::{Coast, Front, Shore, islands, spacings};
 
 /// What the sea does: `coast_events`, the nodes that fell in the latest iteration (none yet at the
 /// beginning), which is 0 when the coast rests; `land_left_percent` of the first land; `shore_m`
@@ -105,6 +105,38 @@ impl Metric for Islands {
             values.push(("main_island_shore_m", length_m(main.shore)));
             values.push(("main_island_folding", spacings(main.shore) / area.sqrt()));
         }
+        Ok(values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
+    }
+}
+
+/// The front of a sea that comes from the south, by the shore of the largest piece of land: `front_reach_m`,
+/// its mean distance from the southernmost nodes; `front_beyond_share`, the share of the map that lies
+/// beyond; `front_width_m`, the standard deviation of the distance; `front_shore_m`, its length, and
+/// `front_accessible_m`, that of the shore which the sea still reaches when it stays a node away from
+/// land (gradient percolation: Sapoval, Rosso and Gouyet 1985).
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CoastFront {}
+
+impl Metric for CoastFront {
+    type Memory = ();
+    const NAME: &'static str = "CoastFront";
+
+    fn fields(&self) -> Vec<String> {
+        vec!["land".to_owned()]
+    }
+
+    fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
+        let (lattice, land) = (snapshot.lattice(), stored_values::<Land>(snapshot.world()));
+        let Some(front) = Front::new(lattice, land) else { return Ok(Vec::new()) };
+        let spacing = lattice.spacing();
+        let values = [
+            ("front_reach_m", front.reach * spacing),
+            ("front_beyond_share", 1.0 - front.reach / lattice.height() as f64),
+            ("front_width_m", front.width * spacing),
+            ("front_shore_m", front.shore * spacing),
+            ("front_accessible_m", front.accessible_shore * spacing),
+        ];
         Ok(values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
     }
 }

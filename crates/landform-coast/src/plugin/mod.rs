@@ -20,7 +20,7 @@ pub use image::{ImageCoastErosion, ImageCoastRecord};
 pub use image_device::CoastDevice;
 pub use interior::{InteriorRecord, IslandInterior};
 pub use level_sets::{ImageCoastActivity, LevelSetActivity};
-pub use metrics::{CoastActivity, Islands};
+pub use metrics::{CoastActivity, CoastFront, Islands};
 pub use pruning::IslandPruning;
 pub use starting_land::{LandShape, StartingLand};
 
@@ -32,6 +32,6 @@ pub fn register(registry: &mut Registry) {
     registry.process::<IslandInterior>().process::<LevelSetHeights>();
     registry.process::<ImageCoastErosion>();
     registry.metric::<LevelSetActivity>().metric::<ImageCoastActivity>();
-    registry.metric::<CoastActivity>().metric::<Islands>();
+    registry.metric::<CoastActivity>().metric::<CoastFront>().metric::<Islands>();
     registry.initial::<StartingLand>();
 }

@@ -3,11 +3,13 @@
 mod counts;
 mod dunes;
 pub mod metrics;
+mod row_piles;
 mod sandpiles;
 mod smoothing;
 
 pub use counts::{DuneActivity, DuneCounts};
 pub use dunes::{Dunes, ShelterKind};
+pub use row_piles::{RicePile, SlidingSlabs, Topplings};
 pub use sandpiles::{AvalancheRecord, Grains, Sandpile};
 pub use smoothing::Smoothing;
 
@@ -22,7 +24,9 @@ pub fn register(registry: &mut Registry) {
         .process::<Smoothing>()
         .process::<SandLike>()
         .process::<CorrosionLike>()
-        .process::<Sandpile>();
+        .process::<Sandpile>()
+        .process::<RicePile>()
+        .process::<SlidingSlabs>();
     registry
         .metric::<metrics::NearRepose>()
         .metric::<metrics::BareGround>()
@@ -30,5 +34,7 @@ pub fn register(registry: &mut Registry) {
         .metric::<metrics::Migration>()
         .metric::<metrics::ProtectionError>()
         .metric::<metrics::Avalanches>()
+        .metric::<metrics::GrainShares>()
+        .metric::<metrics::RidgeDrift>()
         .metric::<DuneActivity>();
 }

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandpile::{
     AbelianSandpile, Avalanche, CorrosionLike, CorrosionState, SandLike, SandState, SandpileError,
-    SizeStatistics,
+    SizeStatistics, exact::mean_avalanche_size,
 };
 
 /// Events of the latest iteration: slips, blocks or topplings, and avalanches of a sandpile.
@@ -29,16 +29,34 @@ pub struct AvalancheRecord {
     pub events: u64,
     /// Sizes of all avalanches of a sandpile since the warm-up.
     pub sizes: SizeStatistics,
+    /// Mean size of an avalanche in the critical state, where it is known exactly.
+    pub exact_mean: Option<f64>,
+}
+
+impl AvalancheRecord {
+    /// Counts an avalanche of the latest iteration, in the statistics too once the warm-up is over.
+    pub(super) fn count(&mut self, size: u64, is_warm: bool) {
+        self.events += size;
+        if is_warm {
+            self.sizes.record(size);
+        }
+    }
 }
 
 impl Keep for AvalancheRecord {
     fn save<'a>(&'a self, to: &mut Saver<'_, 'a>) {
         to.value("events", &self.events);
         to.keep("sizes", &self.sizes);
+        to.value("exact mean", &self.exact_mean.map(f64::to_bits));
     }
 
     fn restore(from: &Loader<'_>) -> Result<Self, Damage> {
-        Ok(Self { events: from.value("events")?, sizes: from.keep("sizes")? })
+        let exact_mean: Option<u64> = from.value("exact mean")?;
+        Ok(Self {
+            events: from.value("events")?,
+            sizes: from.keep("sizes")?,
+            exact_mean: exact_mean.map(f64::from_bits),
+        })
     }
 }
 
@@ -255,17 +273,19 @@ impl Plugin for Sandpile {
 #[derive(Resource)]
 struct Pile(AbelianSandpile);
 
-fn count_grains(world: &bevy_ecs::world::World) -> f64 {
+pub(super) fn count_grains(world: &bevy_ecs::world::World) -> f64 {
     stored_values::<Grains>(world).iter().map(|&grains| u64::from(grains)).sum::<u64>() as f64
 }
 
 fn heap(
     mut commands: Commands,
     space: Res<Space>,
+    mut record: ResMut<AvalancheRecord>,
     mut fault: ResMut<Fault>,
     mut grains: FieldMut<Grains>,
 ) {
     let size = [space.width(), space.height()];
+    record.exact_mean = (size[0] == size[1]).then(|| mean_avalanche_size(size[0]));
     match AbelianSandpile::with_grains(size, grains.values()) {
         Ok((pile, _)) => {
             grains.values_mut().copy_from_slice(&pile.grains());
@@ -290,10 +310,7 @@ fn rain_grains(
     record.events = 0;
     for number in first..first + settings.grains_per_iteration {
         let Avalanche { size, .. } = pile.0.add_at_random(&stream, number);
-        record.events += size;
-        if clock.iteration >= settings.warm_up_iterations {
-            record.sizes.record(size);
-        }
+        record.count(size, clock.iteration >= settings.warm_up_iterations);
     }
     ledger.enter("grains", "added", settings.grains_per_iteration as f64);
     let fallen = pile.0.ledger().fallen;

@@ -29,3 +29,16 @@ pub use oslo::OsloPile;
 pub use sand_like::{SandLike, SandState};
 pub use slab_pile::SlabPile;
 pub use statistics::{SizeBin, SizeStatistics};
+
+/// Refuses columns of grains so high that they would slide for hours.
+fn check_heights(heights: &[u32]) -> Result<(), SandpileError> {
+    const MOST: u32 = 1_000_000;
+    match heights.iter().max() {
+        Some(&height) if height > MOST => Err(SandpileError::Parameter {
+            parameter: "grains",
+            value: f64::from(height),
+            expected: "at most 1000000 in a column",
+        }),
+        _ => Ok(()),
+    }
+}

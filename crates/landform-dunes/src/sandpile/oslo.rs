@@ -2,7 +2,7 @@
 
 use landform_sim::random::RandomStream;
 
-use super::SandpileError;
+use super::{SandpileError, check_heights};
 
 /// The Oslo model (Christensen, Corral, Frette, Feder and Jossang 1996).
 ///
@@ -16,6 +16,8 @@ use super::SandpileError;
 #[derive(Clone, Debug)]
 pub struct OsloPile {
     stream: RandomStream,
+    /// Number of the pile among those of a stream.
+    row: u32,
     /// Fall from each column to the next.
     slopes: Vec<i32>,
     /// Whether the threshold of each column is 2 and not 1.
@@ -32,19 +34,51 @@ impl OsloPile {
     /// # Errors
     /// [`SandpileError::Size`] without columns or with more than 2^28.
     pub fn new(columns: usize, seed: u64) -> Result<Self, SandpileError> {
-        if columns == 0 || columns > 1 << 28 {
+        if columns > 1 << 28 {
             return Err(SandpileError::Size { columns, rows: 1 });
         }
+        Self::standing(&vec![0; columns], &vec![0; columns], 0, seed)
+    }
+
+    /// A pile with as many grains in its columns as `heights` says, each of which has toppled as often as
+    /// `topplings` says. Piles of one seed that differ in `row` have thresholds of their own. What is too
+    /// steep moves when the next grain is added.
+    ///
+    /// # Errors
+    /// [`SandpileError`] without columns, with more than 2^28, where the two differ in length, and for
+    /// columns of more than a million grains.
+    pub fn standing(
+        heights: &[u32],
+        topplings: &[u32],
+        row: u32,
+        seed: u64,
+    ) -> Result<Self, SandpileError> {
+        let columns = heights.len();
+        if columns == 0 || columns > 1 << 28 || topplings.len() != columns {
+            return Err(SandpileError::Size { columns, rows: 1 });
+        }
+        check_heights(heights)?;
         let stream = RandomStream::new(seed, "oslo thresholds");
-        Ok(Self {
-            high: (0..columns).map(|column| threshold_is_high(&stream, column, 0)).collect(),
+        let next = heights.iter().skip(1).chain([&0]);
+        let high = |(column, &count): (usize, &u32)| {
+            threshold_is_high(&stream, [column, row as usize], u64::from(count))
+        };
+        let mut pile = Self {
+            high: topplings.iter().enumerate().map(high).collect(),
+            slopes: heights
+                .iter()
+                .zip(next)
+                .map(|(here, next)| *here as i32 - *next as i32)
+                .collect(),
+            topplings: topplings.iter().map(|&count| u64::from(count)).collect(),
             stream,
-            slopes: vec![0; columns],
-            topplings: vec![0; columns],
+            row,
             unstable: Vec::new(),
             added: 0,
             fallen: 0,
-        })
+        };
+        (0..columns).for_each(|column| pile.list_if_unstable(column));
+        Ok(pile)
     }
 
     /// Adds a grain at the wall, lets the pile relax and returns the number of moves.
@@ -82,7 +116,8 @@ impl OsloPile {
             None => self.fallen += 1,
         }
         self.topplings[column] += 1;
-        self.high[column] = threshold_is_high(&self.stream, column, self.topplings[column]);
+        let place = [column, self.row as usize];
+        self.high[column] = threshold_is_high(&self.stream, place, self.topplings[column]);
     }
 
     fn is_unstable(&self, column: usize) -> bool {
@@ -107,16 +142,21 @@ impl OsloPile {
         heights
     }
 
+    /// How often each column has toppled.
+    pub fn topplings(&self) -> &[u64] {
+        &self.topplings
+    }
+
     /// Grains added and grains fallen off the open end.
     pub fn ledger(&self) -> [u64; 2] {
         [self.added, self.fallen]
     }
 }
 
-/// Threshold of a column after it toppled `topplings` times: one bit of a random block that
+/// Threshold of a column of a row after it toppled `topplings` times: one bit of a random block that
 /// serves for 128 topplings.
-fn threshold_is_high(stream: &RandomStream, column: usize, topplings: u64) -> bool {
-    let words = stream.block(topplings / 128, column, 0);
+fn threshold_is_high(stream: &RandomStream, [column, row]: [usize; 2], topplings: u64) -> bool {
+    let words = stream.block(topplings / 128, column, row as u32);
     let bit = topplings % 128;
     words[(bit / 32) as usize] >> (bit % 32) & 1 == 1
 }
@@ -132,7 +172,7 @@ mod tests {
         loop {
             let unstable = (0..heights.len()).rev().find(|&column| {
                 let next = heights.get(column + 1).copied().unwrap_or(0);
-                let high = threshold_is_high(stream, column, topplings[column]);
+                let high = threshold_is_high(stream, [column, 0], topplings[column]);
                 heights[column] > next + 1 + u64::from(high)
             });
             let Some(column) = unstable else { return moves };
@@ -175,8 +215,28 @@ mod tests {
     }
 
     #[test]
+    fn a_pile_that_was_put_down_goes_on() {
+        let mut pile = OsloPile::new(20, 3).unwrap();
+        assert!((0..500).map(|_| pile.add()).sum::<u64>() > 500);
+        let heights: Vec<u32> = pile.heights().iter().map(|&height| height as u32).collect();
+        let topplings: Vec<u32> = pile.topplings().iter().map(|&count| count as u32).collect();
+        let mut again = OsloPile::standing(&heights, &topplings, 0, 3).unwrap();
+        let mut other = OsloPile::standing(&heights, &topplings, 1, 3).unwrap();
+        let moves = |pile: &mut OsloPile| (0..200).map(|_| pile.add()).collect::<Vec<_>>();
+        let expected = moves(&mut pile);
+        assert_eq!(moves(&mut again), expected);
+        assert_ne!(moves(&mut other), expected, "another row");
+        // A wall of grains slides down, and none is lost.
+        let mut wall = OsloPile::standing(&[40, 0, 0, 0], &[0; 4], 0, 1).unwrap();
+        assert!(wall.add() > 40);
+        assert_eq!(wall.heights().iter().sum::<u64>() + wall.ledger()[1], 41);
+    }
+
+    #[test]
     fn impossible_piles_are_refused() {
         assert!(OsloPile::new(0, 1).is_err());
         assert!(OsloPile::new(usize::MAX, 1).is_err());
+        assert!(OsloPile::standing(&[1, 2], &[0], 0, 1).is_err());
+        assert!(OsloPile::standing(&[u32::MAX], &[0], 0, 1).is_err());
     }
 }

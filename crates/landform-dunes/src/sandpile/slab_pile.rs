@@ -2,7 +2,7 @@
 
 use landform_sim::random::RandomStream;
 
-use super::SandpileError;
+use super::{SandpileError, check_heights};
 
 /// A pile of slabs in which a moving slab drags along those underneath (Duran 2000, as told in
 /// section 2.2 of the thesis; the local limited model of Kadanoff, Nagel, Wu and Zhou 1989).
@@ -33,6 +33,19 @@ impl SlabPile {
     /// [`SandpileError`] without columns or with more than 2^28, and if `slabs_together` is not
     /// from 1 to 1000.
     pub fn new(columns: usize, slabs_together: u32) -> Result<Self, SandpileError> {
+        if columns > 1 << 28 {
+            return Err(SandpileError::Size { columns, rows: 1 });
+        }
+        Self::standing(&vec![0; columns], slabs_together)
+    }
+
+    /// The same with as many slabs in the columns as `heights` says. What is too steep slides when the
+    /// next slab is added.
+    ///
+    /// # Errors
+    /// As [`SlabPile::new`], and for columns of more than a million slabs.
+    pub fn standing(heights: &[u32], slabs_together: u32) -> Result<Self, SandpileError> {
+        let columns = heights.len();
         if columns == 0 || columns > 1 << 28 {
             return Err(SandpileError::Size { columns, rows: 1 });
         }
@@ -43,14 +56,28 @@ impl SlabPile {
                 expected: "from 1 to 1000",
             });
         }
-        Ok(Self {
+        check_heights(heights)?;
+        let next = heights.iter().skip(1).chain([&0]);
+        let mut pile = Self {
             slabs_together: slabs_together as i32,
             critical_fall: slabs_together as i32,
-            slopes: vec![0; columns],
+            slopes: heights
+                .iter()
+                .zip(next)
+                .map(|(here, next)| *here as i32 - *next as i32)
+                .collect(),
             unstable: Vec::new(),
             added: 0,
             fallen: 0,
-        })
+        };
+        (0..columns).for_each(|column| pile.list_if_unstable(column));
+        Ok(pile)
+    }
+
+    /// Mean number of slides a slab in the critical state, exactly: `(columns + 1) / 2` moves of
+    /// `slabs_together` slabs.
+    pub fn mean_slides(columns: usize, slabs_together: u32) -> f64 {
+        (columns as f64 + 1.0) / 2.0 / f64::from(slabs_together)
     }
 
     /// Adds a slab on a column, lets the pile relax and returns the number of slides.
@@ -81,9 +108,10 @@ impl SlabPile {
         slides
     }
 
-    /// Adds a slab on a random column; `number` counts the slabs of the run.
-    pub fn add_at_random(&mut self, stream: &RandomStream, number: u64) -> u64 {
-        let word = stream.block(number, 0, 0)[0];
+    /// Adds a slab on a random column; `number` counts the slabs of the run, and piles that differ in
+    /// `row` draw columns of their own.
+    pub fn add_at_random(&mut self, stream: &RandomStream, number: u64, row: usize) -> u64 {
+        let word = stream.block(number, row, 0)[0];
         self.add(((u64::from(word) * self.slopes.len() as u64) >> 32) as usize)
     }
 
@@ -169,9 +197,9 @@ mod tests {
         let mut pile = SlabPile::new(columns, together).unwrap();
         let transient = 8 * (columns * columns) as u64 * u64::from(together);
         (0..transient).for_each(|number| {
-            pile.add_at_random(&stream, number);
+            pile.add_at_random(&stream, number, 0);
         });
-        (0..slabs).map(|number| pile.add_at_random(&stream, transient + number)).collect()
+        (0..slabs).map(|number| pile.add_at_random(&stream, transient + number, 0)).collect()
     }
 
     #[test]
@@ -179,7 +207,9 @@ mod tests {
         for together in [1, 2, 3] {
             let sizes = slides(63, together, 400_000);
             let mean = sizes.iter().sum::<u64>() as f64 / sizes.len() as f64;
-            assert!((mean * f64::from(together) / 32.0 - 1.0).abs() < 0.01, "{together}: {mean}");
+            let expected = SlabPile::mean_slides(63, together);
+            assert_eq!(expected * f64::from(together), 32.0);
+            assert!((mean / expected - 1.0).abs() < 0.01, "{together}: {mean}");
         }
     }
 
@@ -199,9 +229,23 @@ mod tests {
     }
 
     #[test]
+    fn a_pile_that_was_put_down_goes_on() {
+        let mut pile = SlabPile::new(20, 2).unwrap();
+        assert!((0..900).map(|number| pile.add(number % 20)).sum::<u64>() > 900);
+        let heights: Vec<u32> = pile.heights().iter().map(|&height| height as u32).collect();
+        let mut again = SlabPile::standing(&heights, 2).unwrap();
+        let slides = |pile: &mut SlabPile| (0..200).map(|n| pile.add(n % 20)).collect::<Vec<_>>();
+        assert_eq!(slides(&mut again), slides(&mut pile));
+        let mut wall = SlabPile::standing(&[40, 0, 0, 0], 2).unwrap();
+        assert!(wall.add(3) > 20, "a wall slides down");
+        assert_eq!(wall.heights().iter().sum::<i64>() + wall.ledger()[1] as i64, 41);
+    }
+
+    #[test]
     fn impossible_piles_are_refused() {
         assert!(SlabPile::new(0, 2).is_err());
         assert!(SlabPile::new(5, 0).is_err());
         assert!(SlabPile::new(5, u32::MAX).is_err());
+        assert!(SlabPile::standing(&[0, 1_000_001], 2).is_err());
     }
 }

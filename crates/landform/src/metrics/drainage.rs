@@ -84,7 +84,8 @@ impl Drainage {
                 "drainage_exceedance",
                 area_exceedance(&directions, &cells, range).map(|law| law.exponent),
             ),
-            ("drainage_concavity", concavity.map(|law| law.concavity.exponent)),
+            ("drainage_concavity", concavity.as_ref().map(|law| law.concavity.exponent)),
+            ("drainage_steepness", concavity.map(|law| law.steepness)),
             ("drainage_largest_basin_m2", Some(largest)),
         ]))
     }

@@ -8,6 +8,7 @@ mod hypsometry;
 mod shore;
 mod side_dimension;
 mod spectral;
+mod topology;
 mod valley_spacing;
 mod valleys;
 
@@ -19,6 +20,7 @@ pub use hypsometry::{FirstCurve, Hypsometry};
 pub use shore::{ShoreDimension, ShoreLevel};
 pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
+pub use topology::VoxelTopology;
 pub use valley_spacing::ValleySpacing;
 pub use valleys::ValleyHeads;
 

@@ -33,11 +33,14 @@ pub struct ShoreDimension {
     pub field: String,
     /// Land is where the field is at or above this.
     pub level: ShoreLevel,
+    /// Shortest and longest ruler of the dividers; without it a range that suits the line.
+    #[schemars(extend("x-unit" = "m"))]
+    pub rulers_m: Option<(f64, f64)>,
 }
 
 impl Default for ShoreDimension {
     fn default() -> Self {
-        Self { field: "surface".to_owned(), level: ShoreLevel::Median }
+        Self { field: "surface".to_owned(), level: ShoreLevel::Median, rulers_m: None }
     }
 }
 
@@ -50,6 +53,9 @@ impl Metric for ShoreDimension {
     }
 
     fn validate(&self, lattice: &Lattice) -> Result<(), Problem> {
+        if let Err(why) = self.rulers() {
+            return Err(Problem::new("rulers_m", why, "two lengths above 0, the shorter first"));
+        }
         match self.level {
             ShoreLevel::At(level) if !level.is_finite() => {
                 Err(Problem::new("level", format!("the level is {level}"), "a finite number"))
@@ -73,8 +79,19 @@ impl Metric for ShoreDimension {
         Ok(columns([
             ("shore_dimension", Some(all.dimension)),
             ("shore_dimension_error", Some(all.error)),
-            ("longest_shore_dimension", longest(&heights, size, level, lattice.spacing())),
+            (
+                "longest_shore_dimension",
+                longest(&heights, size, level, lattice.spacing(), self.rulers().unwrap_or(None)),
+            ),
         ]))
+    }
+}
+
+impl ShoreDimension {
+    /// The range of rulers that is asked for.
+    fn rulers(&self) -> Result<Option<ScaleRange>, String> {
+        let range = self.rulers_m.map(|(shortest, longest)| ScaleRange::new(shortest, longest));
+        range.transpose().map_err(|error| error.to_string())
     }
 }
 
@@ -89,10 +106,17 @@ fn median(heights: &[f64]) -> f64 {
 }
 
 /// Dimension of the longest line at a level by dividers, if it is long enough.
-fn longest(heights: &[f64], size: [usize; 2], level: f64, spacing: f64) -> Option<f64> {
+fn longest(
+    heights: &[f64],
+    size: [usize; 2],
+    level: f64,
+    spacing: f64,
+    rulers: Option<ScaleRange>,
+) -> Option<f64> {
     let lines = level_sets(heights, size, level, LevelSetEdge::End).ok()?;
     let lines = lines.iter().filter_map(|line| line.polyline([spacing; 2]).ok());
     let longest = lines.max_by(|a: &Polyline, b| a.length_m().total_cmp(&b.length_m()))?;
-    let range = ScaleRange::usual(std::slice::from_ref(&longest)).ok()?;
+    let usual = || ScaleRange::usual(std::slice::from_ref(&longest)).ok();
+    let range = rulers.or_else(usual)?;
     Some(divider_dimension(&[longest], &range).ok()?.dimension)
 }

@@ -239,10 +239,11 @@ pub(crate) struct ExportArguments {
 
 #[derive(Args)]
 pub(crate) struct ReproduceArguments {
-    /// Target files, or their names below scenarios/thesis (table_4_1) or scenarios (dendry/table_1)
+    /// Target files, or their names below scenarios/thesis (table_4_1) or scenarios (dendry/table_1, or
+    /// physics for a whole folder)
     #[arg(required_unless_present_any = ["all", "chapter"])]
     pub figures: Vec<String>,
-    /// All figures and tables
+    /// All figures and tables, and all target files of other folders of scenarios
     #[arg(long)]
     pub all: bool,
     /// Those of a chapter or an appendix: 4, B

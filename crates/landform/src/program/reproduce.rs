@@ -89,10 +89,9 @@ fn entries(
         (_, chapter) => all(thesis, chapter.as_deref())?,
     };
     for name in &arguments.figures {
-        let path = find(name, thesis)?;
-        if !paths.contains(&path) {
-            paths.push(path);
-        }
+        let found = find(name, thesis)?;
+        let new: Vec<PathBuf> = found.into_iter().filter(|path| !paths.contains(path)).collect();
+        paths.extend(new);
     }
     let mut entries: Vec<Entry> = Vec::with_capacity(paths.len());
     for path in paths {

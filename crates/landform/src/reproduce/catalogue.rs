@@ -109,20 +109,26 @@ fn parse(path: &Path, text: &str) -> Result<Figure, String> {
     options.from_str(source.text()).map_err(|error| ron_diagnostic(&source, &error).render(&source))
 }
 
-/// The target file of a figure: a path, the name of a file in `folder`, or that of one beside it with
-/// its folder: `dendry/table_1`.
+/// The target files that a name stands for: a path, the name of a file in `folder`, that of one beside
+/// it with its folder, `dendry/table_1`, or a folder beside it: `physics`.
 ///
 /// # Errors
 /// A message that names the first two.
-pub fn find(name: &str, folder: &Path) -> Result<PathBuf, String> {
+pub fn find(name: &str, folder: &Path) -> Result<Vec<PathBuf>, String> {
     let file = format!("{name}{ENDING}");
     let named = folder.join(&file);
-    let beside = folder.parent().unwrap_or(Path::new("")).join(file);
-    let candidates = [PathBuf::from(name), named.clone(), beside];
-    candidates
-        .into_iter()
-        .find(|path| path.is_file())
-        .ok_or_else(|| format!("there is no target file {name}, nor {}", named.display()))
+    let scenarios = folder.parent().unwrap_or(Path::new(""));
+    let candidates = [PathBuf::from(name), named.clone(), scenarios.join(file)];
+    if let Some(file) = candidates.into_iter().find(|path| path.is_file()) {
+        return Ok(vec![file]);
+    }
+    let whole = scenarios.join(name);
+    let files =
+        if !name.is_empty() && whole.is_dir() { of_folder(&whole, None)? } else { Vec::new() };
+    match files.is_empty() {
+        true => Err(format!("there is no target file {name}, nor {}", named.display())),
+        false => Ok(files),
+    }
 }
 
 /// The target files of a chapter of the thesis (`4`, `B`), or all: those of the thesis in its order,

@@ -8,7 +8,7 @@ use landform_sim::simulation::Limits;
 
 use super::data::ANALYSIS;
 use super::measure::INITIAL;
-use super::{Figure, RunEntry, Source};
+use super::{Figure, RunEntry, Source, plot};
 
 /// Checks that every scenario of `figure` can run and that every number is taken from one of
 /// its runs and stages, and returns what the scenario of each run says of itself. Files of data may be
@@ -36,6 +36,9 @@ pub fn check(
         stages.push((entry.name.as_str(), vec![ANALYSIS.to_owned()]));
     }
     for target in &figure.targets {
+        if let Some(why) = target.value.problem() {
+            return Err(format!("{}: {why}", target.name));
+        }
         for source in target.value.sources() {
             check_source(source, &stages).map_err(|why| format!("{}: {why}", target.name))?;
             let several =
@@ -48,6 +51,7 @@ pub fn check(
             }
         }
     }
+    plot::check(figure)?;
     match figure.seeds {
         0 => Err(format!("{}: zero seeds; expected at least one", figure.id)),
         _ => Ok(descriptions),

@@ -1,6 +1,5 @@
 //! Running the scenarios of a figure and comparing their numbers with the thesis'.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,18 +9,13 @@ use landform_sim::scenario::ScenarioSource;
 use landform_sim::simulation::{Limits, Progress, Report, Simulation};
 
 use super::data::{ANALYSIS, Data};
-use super::judge::{FigureReport, judge};
+use super::judge::{FigureReport, TargetReport, judge};
+use super::quantity::{Runs, StageMetrics};
 use super::targets::Copy;
-use super::{Figure, Quantity, RunEntry, Source, Target, sheet};
+use super::{Figure, RunEntry, Target, plot, sheet};
 
 /// Name under which a target finds the metrics of the state before the first iteration.
 pub(super) const INITIAL: &str = "initial";
-
-/// Metrics by stage of one run.
-type StageMetrics = BTreeMap<String, BTreeMap<String, f64>>;
-
-/// The runs of every name.
-type Runs<'a> = BTreeMap<&'a str, Vec<StageMetrics>>;
 
 /// Folders that a figure has to do with.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +80,7 @@ pub(super) fn measure(
     }
     let value = |target: &Target| match data.absence(target) {
         Some(_) => Ok(None),
-        None => quantity(&target.value, &metrics).map(Some),
+        None => target.value.of(&metrics).map(Some),
     };
     let values = figure.targets.iter().map(value).collect::<Result<_, _>>()?;
     Ok(SeedNumbers { values, pictures: pictures_of })
@@ -109,11 +103,13 @@ pub(super) fn conclude(
     }
     drawn.extend(data.analysed.iter().map(|(name, found)| (*name, vec![found.picture.clone()])));
     let sheet = sheet::write(figure, &drawn, output)?;
-    let pictures = sheet.into_iter().chain(drawn.into_iter().flat_map(|(_, pictures)| pictures));
     let judged = figure.targets.iter().enumerate().map(|(index, target)| {
         let values = seeds.iter().filter_map(|seed| seed.values[index]).collect();
         judge(target, figure.average, values, data.absence(target))
     });
+    let targets: Vec<TargetReport> = judged.collect();
+    let whole = sheet.into_iter().chain(plot::write(figure, &targets, output)?);
+    let pictures = whole.chain(drawn.into_iter().flat_map(|(_, pictures)| pictures));
     Ok(FigureReport {
         name: name.to_owned(),
         id: figure.id.clone(),
@@ -122,7 +118,7 @@ pub(super) fn conclude(
         scenarios: figure.runs.iter().map(|run| run.scenario.clone()).collect(),
         data: data.analysed.iter().map(|(_, found)| found.file.clone()).collect(),
         pictures: pictures.map(|picture| Path::new(name).join(picture)).collect(),
-        targets: judged.collect(),
+        targets,
     })
 }
 
@@ -190,27 +186,6 @@ fn run_once(
     Ok(report)
 }
 
-fn quantity(quantity: &Quantity, runs: &Runs<'_>) -> Result<f64, String> {
-    let all = |source: &Source| {
-        let Source { run, stage, metric } = source;
-        let runs = runs.get(run.as_str()).map_or(&[][..], Vec::as_slice);
-        let find = |run: &StageMetrics| run.get(stage)?.get(metric).copied();
-        let values: Option<Vec<f64>> = runs.iter().map(find).collect();
-        values.filter(|values| !values.is_empty()).ok_or_else(|| {
-            format!("the run `{run}` has no metric `{metric}` at the end of a stage `{stage}`")
-        })
-    };
-    let first = |source: &Source| all(source).map(|values| values[0]);
-    Ok(match quantity {
-        Quantity::Metric(source) => first(source)?,
-        Quantity::Ratio(of, to) => first(of)? / first(to)?,
-        Quantity::Difference(of, less) => first(of)? - first(less)?,
-        Quantity::Sum(one, other) => first(one)? + first(other)?,
-        Quantity::Smallest(source) => all(source)?.into_iter().fold(f64::INFINITY, f64::min),
-        Quantity::Largest(source) => all(source)?.into_iter().fold(f64::NEG_INFINITY, f64::max),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -228,27 +203,5 @@ mod tests {
         assert_eq!(last.set[1], ("initial[0].from.hurst".to_owned(), "0.75".to_owned()));
         let seeds: Vec<u64> = [1, 2].into_iter().flat_map(copies).map(|copy| copy.seed).collect();
         assert_eq!(seeds, [1, 2, 3, 4, 5, 6]);
-    }
-
-    #[test]
-    fn quantities_are_taken_over_runs() {
-        let run = |value: f64| {
-            let metrics = BTreeMap::from([("m".to_owned(), value)]);
-            StageMetrics::from([("s".to_owned(), metrics)])
-        };
-        let runs = Runs::from([("a", vec![run(3.0), run(5.0), run(2.0)]), ("b", vec![run(4.0)])]);
-        let source = |run: &str| Source { run: run.into(), stage: "s".into(), metric: "m".into() };
-        let [a, b] = ["a", "b"].map(source);
-        for (asked, expected) in [
-            (Quantity::Smallest(a.clone()), 2.0),
-            (Quantity::Largest(a), 5.0),
-            (Quantity::Difference(b.clone(), b.clone()), 0.0),
-            (Quantity::Sum(b.clone(), b.clone()), 8.0),
-            (Quantity::Ratio(b.clone(), b), 1.0),
-        ] {
-            assert_eq!(quantity(&asked, &runs), Ok(expected), "{asked:?}");
-        }
-        let none = quantity(&Quantity::Metric(source("c")), &runs);
-        assert!(none.is_err_and(|why| why.contains("`c` has no metric `m`")));
     }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+use super::{PlotEntry, Quantity};
+
 /// A figure or table of the thesis, or of another source, with its numbers.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,6 +33,9 @@ pub struct Figure {
     pub analyses: Vec<AnalysisEntry>,
     /// The numbers.
     pub targets: Vec<Target>,
+    /// Plots of the numbers, panels of one picture.
+    #[serde(default)]
+    pub plots: Vec<PlotEntry>,
 }
 
 fn thesis() -> String {
@@ -164,54 +169,6 @@ pub struct Target {
     /// What is known about a difference.
     #[serde(default)]
     pub reason: String,
-}
-
-/// How a number is taken from the runs of one seed.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-pub enum Quantity {
-    /// A metric of a run.
-    Metric(Source),
-    /// The metric of one run divided by that of another.
-    Ratio(Source, Source),
-    /// The metric of one run less that of another.
-    Difference(Source, Source),
-    /// The metric of one run and that of another together: of two stages that are 1 or 0, whether it
-    /// is one of them.
-    Sum(Source, Source),
-    /// The smallest metric of the runs of one name: see [`RunEntry::over`].
-    Smallest(Source),
-    /// The largest metric of the runs of one name.
-    Largest(Source),
-}
-
-impl Quantity {
-    /// The metrics that it is made of.
-    pub(super) fn sources(&self) -> Vec<&Source> {
-        match self {
-            Self::Metric(source) | Self::Smallest(source) | Self::Largest(source) => vec![source],
-            Self::Ratio(first, second)
-            | Self::Difference(first, second)
-            | Self::Sum(first, second) => vec![first, second],
-        }
-    }
-
-    /// Whether it is taken over several runs of one name.
-    pub(super) fn is_extreme(&self) -> bool {
-        matches!(self, Self::Smallest(_) | Self::Largest(_))
-    }
-}
-
-/// A metric of a run.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Source {
-    /// Name of the run.
-    pub run: String,
-    /// Name of the stage at whose end it is measured; `initial` for the state before the first
-    /// iteration.
-    pub stage: String,
-    /// Name of the metric in the series.
-    pub metric: String,
 }
 
 /// What counts as reproduced.

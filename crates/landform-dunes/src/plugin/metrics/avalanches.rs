@@ -8,10 +8,11 @@ use serde::{Deserialize, Serialize};
 
 use super::measured;
 use crate::plugin::AvalancheRecord;
-use crate::sandpile::exact::mean_avalanche_size;
 
-/// Events of the latest iteration (slips, blocks, topplings) and, for `Sandpile`, the mean size of
-/// the avalanches so far beside its exact value for a square pile (Dhar 1990).
+/// Events of the latest iteration (slips, blocks, topplings, moves) and, for `Sandpile`, `RicePile` and
+/// `SlidingSlabs`, the mean size of the avalanches so far and the largest, beside the exact mean: that of a
+/// square `Sandpile` (Dhar 1990), the number of columns of rice, and (columns + 1) / 2 by the slabs that
+/// slide together.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Avalanches {}
@@ -24,14 +25,12 @@ impl Metric for Avalanches {
         let Some(record) = snapshot.world().get_resource::<AvalancheRecord>() else {
             return Ok(Vec::new());
         };
-        let lattice = snapshot.lattice();
         let recorded = record.sizes.count() > 0;
-        let square = recorded && lattice.width() == lattice.height();
         Ok(measured([
             ("avalanche_events", Some(record.events as f64)),
             ("mean_avalanche", recorded.then(|| record.sizes.mean())),
             ("largest_avalanche", recorded.then(|| record.sizes.largest() as f64)),
-            ("mean_avalanche_exact", square.then(|| mean_avalanche_size(lattice.width()))),
+            ("mean_avalanche_exact", record.exact_mean.filter(|_| recorded)),
         ]))
     }
 }

@@ -2,14 +2,18 @@
 
 mod avalanches;
 mod crests;
+mod grain_shares;
 mod migration;
 mod repose;
+mod ridge_drift;
 mod shadow_error;
 
 pub use avalanches::Avalanches;
 pub use crests::Crests;
+pub use grain_shares::GrainShares;
 pub use migration::Migration;
 pub use repose::{BareGround, NearRepose};
+pub use ridge_drift::RidgeDrift;
 pub use shadow_error::ProtectionError;
 
 use landform_sim::parameters::Problem;
