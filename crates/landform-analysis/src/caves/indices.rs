@@ -3,8 +3,9 @@
 
 use serde::Serialize;
 
+use super::of_voxels::cave_line;
 use super::{CaveNetwork, CaveNetworkError};
-use crate::voxels::{Rule, Turns, VoxelSet, centreline, plan_sheet};
+use crate::voxels::{VoxelSet, plan_sheet};
 
 /// The part of the map that a cave is said to take up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +53,8 @@ pub struct CaveIndices {
 impl CaveIndices {
     /// Measures a cave of voxels, `spacing_m` metres a side.
     ///
-    /// Length is that of the [centreline], with the lines to bumps of the walls; area that of the
+    /// Length is that of the [centreline](crate::voxels::centreline), voxels with many open sides thinned
+    /// away first, with the lines to bumps of the walls that are left; area that of the
     /// [sheet](plan_sheet), each of whose voxels stands for as much as the slope of the sheet there
     /// makes it larger than on the map. Coverage is by the area on the map: the areas of table 5.3 of
     /// the thesis only agree with each other in this way.
@@ -60,8 +62,7 @@ impl CaveIndices {
     /// # Errors
     /// [`CaveNetworkError::Empty`] of a set without passages.
     pub fn of(cave: &VoxelSet, spacing_m: f64, field: CaveField) -> Result<Self, CaveNetworkError> {
-        let line = centreline(cave, Turns::Sides, Rule::Supported);
-        let network = CaveNetwork::of_centreline(&line, spacing_m)?;
+        let network = CaveNetwork::of_centreline(&cave_line(cave), spacing_m)?;
         let square = spacing_m * spacing_m;
         let plan = Plan::of(cave);
         let lowest = cave.iter().map(|[_, _, layer]| layer).min().unwrap_or(0);

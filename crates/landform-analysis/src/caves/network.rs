@@ -125,12 +125,16 @@ impl CaveNetwork {
 
     /// The first station of each separate part.
     pub fn anchors(&self) -> Vec<usize> {
-        let parts = super::paths::components(&self.neighbours);
-        parts
+        self.parts()
             .iter()
             .map(|part| part[0])
             .filter(|&first| !self.neighbours[first].is_empty())
             .collect()
+    }
+
+    /// The stations of each separate part; those without legs are parts of their own.
+    pub(super) fn parts(&self) -> Vec<Vec<usize>> {
+        super::paths::components(&self.neighbours)
     }
 
     /// Loops that are independent of each other: legs less stations plus parts.

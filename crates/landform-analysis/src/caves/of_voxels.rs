@@ -1,14 +1,22 @@
 //! The network of a thinned set of voxels.
 
 use super::{CaveNetwork, CaveNetworkError};
-use crate::voxels::VoxelSet;
+use crate::voxels::{Rule, Turns, VoxelSet, centreline};
+
+/// The line through the middle of the passages of a cave, from which its length and its network come.
+///
+/// Voxels with many open sides go first (thesis, figure A.4 c): side by side in turn, as listing A.5
+/// has it, thinning leaves a line to nearly every bump of a rough wall.
+pub(super) fn cave_line(cave: &VoxelSet) -> VoxelSet {
+    centreline(cave, Turns::ExposedSides, Rule::Supported)
+}
 
 impl CaveNetwork {
     /// The network of a centreline of voxels: a station in the middle of each, and a leg between
     /// neighbours unless a third voxel stands between them, so that corners make no loops.
     ///
-    /// x and y count from the south-western corner of the block, z from below, in metres. Voxels that
-    /// touch at a junction are joined to one, in their middle.
+    /// x and y count from the south-western corner of the block, z from below, in metres. Where lines
+    /// meet, several voxels may be junctions: [`CaveNetwork::of_passages`] makes one of them.
     ///
     /// # Errors
     /// [`CaveNetworkError::Empty`] of fewer than two voxels that touch.
@@ -21,49 +29,12 @@ impl CaveNetwork {
         };
         let stations: Vec<[f64; 3]> = voxels.iter().map(|&voxel| position(voxel)).collect();
         let legs = legs(thin, &voxels);
-        let network = Self::new(stations, &legs)?;
-        Ok(network.with_junctions_joined(spacing_m))
-    }
-
-    /// The network with junctions that are neighbours joined to one in their middle, where they fit
-    /// into three voxels each way: what is larger is no crossing of passages.
-    fn with_junctions_joined(self, spacing_m: f64) -> Self {
-        let is_crossing = |part: &[usize]| {
-            (0..3).all(|axis| {
-                let along = part.iter().map(|&station| self.stations()[station][axis]);
-                let [low, high] =
-                    [along.clone().fold(f64::MAX, f64::min), along.fold(f64::MIN, f64::max)];
-                high - low < 2.5 * spacing_m
-            })
-        };
-        let is_junction = |station: usize| self.neighbours(station).len() > 2;
-        let count = self.stations().len();
-        let joined: Vec<Vec<usize>> = (0..count)
-            .map(|station| match is_junction(station) {
-                true => {
-                    let beside = self.neighbours(station).iter().copied();
-                    beside.filter(|&other| is_junction(other)).collect()
-                }
-                false => Vec::new(),
-            })
-            .collect();
-        let mut stations = self.stations().to_vec();
-        let mut stands_for: Vec<usize> = (0..count).collect();
-        for part in super::paths::components(&joined).iter().filter(|part| is_crossing(part)) {
-            let size = part.len() as f64;
-            let sum = |axis: usize| part.iter().map(|&at| self.stations()[at][axis]).sum::<f64>();
-            stations[part[0]] = [0, 1, 2].map(|axis| sum(axis) / size);
-            part.iter().for_each(|&member| stands_for[member] = part[0]);
-        }
-        let legs: Vec<[usize; 2]> =
-            self.legs().iter().map(|leg| leg.map(|end| stands_for[end])).collect();
-        // A network that is one junction stays as it is.
-        Self::new(stations, &legs).unwrap_or(self)
+        Self::new(stations, &legs)
     }
 }
 
 /// Pairs of neighbouring voxels that no third one stands between: no voxel that is nearer to both
-/// than they are to each other.
+/// than they are to each other. Of three at like distances one pair goes, the last in order.
 fn legs(thin: &VoxelSet, voxels: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let mut legs = Vec::new();
     for (from, &voxel) in voxels.iter().enumerate() {
@@ -74,11 +45,11 @@ fn legs(thin: &VoxelSet, voxels: &[[usize; 3]]) -> Vec<[usize; 2]> {
             if !is_later || !thin.holds(other) {
                 continue;
             }
-            let far = square(step);
+            let here = voxel.map(|at| at as isize);
+            let far = rank(here, other);
             let stands_between = |between: &[isize; 3]| {
-                let rest = [0, 1, 2].map(|axis| step[axis] - between[axis]);
-                let third = [0, 1, 2].map(|axis| voxel[axis] as isize + between[axis]);
-                square(*between) < far && square(rest) < far && thin.holds(third)
+                let third = [0, 1, 2].map(|axis| here[axis] + between[axis]);
+                rank(here, third) < far && rank(third, other) < far && thin.holds(third)
             };
             if !steps().any(|between| stands_between(&between)) {
                 let other = other.map(|at| at as usize);
@@ -98,8 +69,12 @@ fn steps() -> impl Iterator<Item = [isize; 3]> {
     all.filter(|&step| step != [0; 3])
 }
 
-fn square(step: [isize; 3]) -> isize {
-    step.iter().map(|step| step * step).sum()
+/// Orders pairs of voxels by their distance, then in node order.
+fn rank(one: [isize; 3], other: [isize; 3]) -> (isize, [[isize; 3]; 2]) {
+    let square = (0..3).map(|axis| (other[axis] - one[axis]).pow(2)).sum();
+    let mut ends = [one, other].map(|[x, y, z]| [z, y, x]);
+    ends.sort_unstable();
+    (square, ends)
 }
 
 #[cfg(test)]
@@ -120,7 +95,7 @@ mod tests {
         let network = CaveNetwork::of_centreline(&corner, 2.0).unwrap();
         assert_eq!((network.cyclomatic_number(), network.length_m()), (0, 6.0));
         assert_eq!(network.stations()[0], [1.0, 23.0, 1.0]);
-        // A cross: its middle and the four voxels around it are one junction of four branches.
+        // A cross: its middle is a junction of four branches.
         let arm = |k: usize| [[5 + k, 5, 1], [5 - k, 5, 1], [5, 5 + k, 1], [5, 5 - k, 1]];
         let cross = set(&(0..5).flat_map(arm).collect::<Vec<_>>());
         let network = CaveNetwork::of_centreline(&cross, 1.0).unwrap();
@@ -133,17 +108,22 @@ mod tests {
     #[test]
     fn three_that_touch_are_a_junction() {
         let voxels = [
+            [0, 0, 0],
             [1, 1, 0],
             [2, 2, 0],
             [3, 3, 0],
             [4, 4, 0],
             [5, 3, 0],
-            [4, 3, 1],
             [6, 2, 0],
+            [7, 1, 0],
+            [8, 0, 0],
+            [4, 3, 1],
             [4, 2, 2],
+            [4, 1, 2],
+            [4, 0, 2],
         ];
-        let network = CaveNetwork::of_centreline(&set(&voxels), 1.0).unwrap();
-        assert_eq!(network.component_count(), 1);
+        let network = CaveNetwork::of_passages(&set(&voxels), 1.0).unwrap();
+        assert_eq!((network.component_count(), network.branches().len()), (1, 3));
         assert_eq!(network.cyclomatic_number(), 0, "{:?}", network.legs());
     }
 }

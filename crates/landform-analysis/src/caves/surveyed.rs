@@ -1,36 +1,60 @@
 //! The network of passages as a surveyor draws it, without what is smaller than a passage is wide.
 
+use super::of_voxels::cave_line;
 use super::passage::passage_width;
 use super::{Branch, CaveNetwork, CaveNetworkError};
-use crate::voxels::{Rule, Turns, VoxelSet, centreline};
+use crate::voxels::VoxelSet;
 
 impl CaveNetwork {
-    /// The network of the passages of a set of voxels: that of its [centreline], as a surveyor draws
-    /// it.
+    /// The network of the passages of a set of voxels: that of its
+    /// [centreline](crate::voxels::centreline), as a surveyor draws it. Voxels with many open sides are
+    /// thinned away first, which leaves fewer lines to bumps of the walls than side by side in turn.
     ///
-    /// Thinning keeps a line to every bump of a wall, and makes several junctions where wide passages
+    /// Thinning keeps a line to bumps of a wall, and makes several junctions where wide passages
     /// meet. A surveyor goes on where there is a passage, and sets one station in a crossing. So a
     /// branch with an open end goes if it is no longer than the passage that it leaves is wide; and two
-    /// junctions that are no farther apart than that become one. The shortest goes first, as each may
-    /// make one way of two.
+    /// junctions that are no farther apart than that, or whose voxels touch, become one. The shortest
+    /// goes first, as each may make one way of two. What is left of vugs, voids apart from the rest that
+    /// are no longer than the widest passage is wide, goes too.
     ///
     /// Positions are those of [`CaveNetwork::of_centreline`].
     ///
     /// # Errors
     /// [`CaveNetworkError::Empty`] of a set without passages.
     pub fn of_passages(cave: &VoxelSet, spacing_m: f64) -> Result<Self, CaveNetworkError> {
-        let line = centreline(cave, Turns::Sides, Rule::Supported);
-        let mut network = Self::of_centreline(&line, spacing_m)?;
-        let width = |at: [f64; 3]| passage_width(cave, at, spacing_m);
+        let mut network = Self::of_centreline(&cave_line(cave), spacing_m)?;
+        let touching_m = 3.0_f64.sqrt() * spacing_m;
+        let width = |at: [f64; 3]| passage_width(cave, at, spacing_m).max(touching_m);
         loop {
             if let Some(fewer) = network.without_spurs(width) {
                 network = fewer;
             } else if let Some(fewer) = network.with_crossings_joined(width) {
                 network = fewer;
             } else {
-                return Ok(network);
+                return Ok(network.without_vugs(width));
             }
         }
+    }
+
+    /// The network without parts that are no longer than its widest passage is wide; the longest stays.
+    fn without_vugs(&self, width_m: impl Fn([f64; 3]) -> f64) -> Self {
+        let widest_m = self.stations().iter().map(|&at| width_m(at)).fold(0.0, f64::max);
+        let parts = self.parts();
+        let mut part_of = vec![0; self.stations().len()];
+        for (number, part) in parts.iter().enumerate() {
+            part.iter().for_each(|&station| part_of[station] = number);
+        }
+        let mut length_m = vec![0.0; parts.len()];
+        for &[from, to] in self.legs() {
+            length_m[part_of[from]] += self.distance_m(from, to);
+        }
+        let longest_m = length_m.iter().copied().fold(0.0, f64::max);
+        let is_kept = |leg: &&[usize; 2]| {
+            let length_m = length_m[part_of[leg[0]]];
+            length_m > widest_m || length_m == longest_m
+        };
+        let legs: Vec<[usize; 2]> = self.legs().iter().filter(is_kept).copied().collect();
+        self.with_legs(&legs)
     }
 
     /// The network without the shortest spur of each junction; none if there are no spurs.
@@ -139,9 +163,8 @@ mod tests {
     #[test]
     fn bumps_and_niches_are_no_passages() {
         let rough = CaveNetwork::of_passages(&gallery(true), 0.5).unwrap();
-        let line = centreline(&gallery(true), Turns::Sides, Rule::Supported);
-        let thin = CaveNetwork::of_centreline(&line, 0.5).unwrap();
-        assert!(thin.branches().len() > 10, "{}", thin.branches().len());
+        let thin = CaveNetwork::of_centreline(&cave_line(&gallery(true)), 0.5).unwrap();
+        assert!(thin.branches().len() > 3, "{}", thin.branches().len());
         // Two arms of the gallery and the side passage.
         assert_eq!(rough.branches().len(), 3);
         let smooth = CaveNetwork::of_passages(&gallery(false), 0.5).unwrap();
@@ -159,12 +182,89 @@ mod tests {
             let across = |turn: f64| (x * turn.sin() - y * turn.cos()).abs() < 3.0;
             within && (across(0.3) || across(1.4))
         });
-        let line = centreline(&set, Turns::Sides, Rule::Supported);
-        let thin = CaveNetwork::of_centreline(&line, 1.0).unwrap();
+        let thin = CaveNetwork::of_centreline(&cave_line(&set), 1.0).unwrap();
         let network = CaveNetwork::of_passages(&set, 1.0).unwrap();
         assert!(thin.branches().len() > 4, "{}", thin.branches().len());
         assert_eq!((network.branches().len(), network.cyclomatic_number()), (4, 0));
         let arms = network.length_m() / 4.0;
         assert!((22.0..32.0).contains(&arms), "{arms}");
+    }
+
+    #[test]
+    fn voids_apart_are_no_caves_unless_they_are_long() {
+        let cave = |with_voids: bool| {
+            VoxelSet::new([60, 40, 9], |[x, y, z]| {
+                let gallery = (2..58).contains(&x) && (2..7).contains(&y) && (2..7).contains(&z);
+                let vug = (10..14).contains(&x) && y == 20 && z == 3;
+                let second = (10..40).contains(&x) && y == 30 && z == 3;
+                gallery || second || (with_voids && vug)
+            })
+        };
+        let networks =
+            [false, true].map(|voids| CaveNetwork::of_passages(&cave(voids), 1.0).unwrap());
+        assert_eq!(networks[0], networks[1]);
+        assert_eq!(networks[0].component_count(), 2);
+        let alone = VoxelSet::new([9, 9, 9], |[x, y, z]| x < 3 && y == 4 && z == 4);
+        assert_eq!(CaveNetwork::of_passages(&alone, 1.0).unwrap().length_m(), 2.0);
+    }
+
+    /// A number from 0 to 1 (SplitMix64).
+    fn share(seed: u64, number: usize) -> f64 {
+        let mut bits = (seed << 32 | number as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((bits ^ bits >> 31) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(from: [f64; 3], to: [f64; 3], along: f64) -> [f64; 3] {
+        [0, 1, 2].map(|axis| from[axis] + along * (to[axis] - from[axis]))
+    }
+
+    fn distance(from: [f64; 3], to: [f64; 3]) -> f64 {
+        (0..3).map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Distance from a line, by points along it.
+    fn off_line(at: [f64; 3], [from, to]: [[f64; 3]; 2]) -> f64 {
+        let points = (0..=60).map(|step| between(from, to, f64::from(step) / 60.0));
+        points.map(|point| distance(at, point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A crooked passage with side passages, all with rough walls; also the number of their branches and
+    /// the length of their middle lines.
+    fn rough_cave(seed: u64) -> (VoxelSet, usize, f64) {
+        let off = |number: usize, most: f64| most * (share(seed, number) - 0.5);
+        let bend =
+            |at: usize| [6.0 + 12.0 * at as f64, 30.0 + off(at, 8.0), 12.0 + off(10 + at, 8.0)];
+        let mut lines: Vec<[[f64; 3]; 2]> = (0..6).map(|at| [bend(at), bend(at + 1)]).collect();
+        let sides = 2 + seed as usize % 4;
+        lines.extend((0..sides).map(|side| {
+            let (north, long) =
+                (if side % 2 == 0 { 1.0 } else { -1.0 }, 18.0 + off(20 + side, 12.0));
+            let way = [off(30 + side, 1.2), north, off(40 + side, 0.4)];
+            let from = bend(side + 1);
+            [from, [0, 1, 2].map(|axis| from[axis] + long * way[axis])]
+        }));
+        let size = [84, 60, 26];
+        let radius = 2.2 + off(60, 2.0);
+        let set = VoxelSet::new(size, |[x, y, z]| {
+            let reach = radius + off(100 + x + size[0] * (y + size[1] * z), 1.0);
+            lines.iter().any(|&line| off_line([x as f64, y as f64, z as f64], line) <= reach)
+        });
+        (set, 1 + 2 * sides, lines.iter().map(|&[from, to]| distance(from, to)).sum())
+    }
+
+    /// Voxels side by side in turn, as listing A.5 has it, make twice as many branches, a third longer.
+    #[test]
+    fn rough_walls_are_no_passages() {
+        let (mut off, mut length): (f64, f64) = (0.0, 0.0);
+        for seed in 0..10 {
+            let (cave, branches, length_m) = rough_cave(seed);
+            let network = CaveNetwork::of_passages(&cave, 1.0).unwrap().resampled(1.0);
+            off += (network.branches().len() as f64 / branches as f64 - 1.0).abs() / 10.0;
+            length += network.length_m() / length_m / 10.0;
+        }
+        assert!(off < 0.15, "{off}");
+        assert!((length - 1.0).abs() < 0.05, "{length}");
     }
 }

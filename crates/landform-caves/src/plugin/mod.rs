@@ -12,7 +12,7 @@ pub use growth::{CaveGrowth, CaveHistory, CaveWater, WaterMotion};
 pub use metrics::{CaveCourses, Passages};
 pub use network_metrics::{PressureZones, ProtochannelSystems};
 pub use places::CavePlaces;
-pub use protochannels::Protochannels;
+pub use protochannels::{ProtochannelTally, Protochannels};
 
 use landform_graph::Lattice;
 use landform_sim::parameters::Problem;

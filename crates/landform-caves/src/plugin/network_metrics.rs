@@ -9,6 +9,8 @@ use landform_sim::snapshot::Snapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::ProtochannelTally;
+
 fn field(snapshot: &Snapshot<'_>, name: &str) -> Result<Vec<f64>, Problem> {
     snapshot.field(name).map_err(|error| Problem::new("", error.to_string(), ""))
 }
@@ -38,7 +40,7 @@ impl Metric for PressureZones {
 }
 
 /// Protochannels: `protochannel_voxels`; `protochannel_systems` that hang together;
-/// `protochannels_traced`, channels to different protosinks; `shared_percent` of the voxels that carry
+/// `protosinks`, and `protochannels_traced` to so many of them; `shared_percent` of the voxels that carry
 /// several channels, the stems of branches; and `clumped_percent`, voxels all neighbours of which, or
 /// all but a quarter, are protochannels too.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,30 +52,26 @@ impl Metric for ProtochannelSystems {
     const NAME: &'static str = "ProtochannelSystems";
 
     fn fields(&self) -> Vec<String> {
-        vec!["protochannels".to_owned(), "pressure_zone".to_owned()]
+        vec!["protochannels".to_owned()]
     }
 
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
         let channels = field(snapshot, "protochannels")?;
-        let zone = field(snapshot, "pressure_zone")?;
         let lattice = snapshot.lattice();
         let inside: Vec<usize> = (0..channels.len()).filter(|&node| channels[node] > 0.0).collect();
         if inside.is_empty() {
             return Ok(Vec::new());
         }
-        // The source of a zone carries all of its channels.
-        let mut stems = std::collections::BTreeMap::<u64, f64>::new();
-        for &node in &inside {
-            let stem = stems.entry(zone[node] as u64).or_default();
-            *stem = stem.max(channels[node]);
-        }
+        let tally = snapshot.world().get_resource::<ProtochannelTally>();
+        let ProtochannelTally { wanted, reached } = tally.copied().unwrap_or_default();
         let percent = |count: usize| 100.0 * count as f64 / inside.len() as f64;
         let shared = inside.iter().filter(|&&node| channels[node] > 1.0).count();
         let clumped = inside.iter().filter(|&&node| is_clumped(lattice, &channels, node)).count();
         let values = [
             ("protochannel_voxels", inside.len() as f64),
             ("protochannel_systems", systems(lattice, &channels, &inside) as f64),
-            ("protochannels_traced", stems.values().sum()),
+            ("protosinks", wanted as f64),
+            ("protochannels_traced", reached as f64),
             ("shared_percent", percent(shared)),
             ("clumped_percent", percent(clumped)),
         ];

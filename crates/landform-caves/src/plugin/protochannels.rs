@@ -2,6 +2,7 @@
 
 use bevy_app::{App, Plugin};
 use bevy_ecs::change_detection::{Res, ResMut};
+use bevy_ecs::resource::Resource;
 use bevy_ecs::system::Commands;
 use landform_graph::Lattice;
 use landform_sim::clock::Clock;
@@ -79,6 +80,7 @@ impl Process for Protochannels {
         uses.writes::<Porosity>()
             .writes::<PressureZone>()
             .writes::<ProtochannelCount>()
+            .keeps::<ProtochannelTally>()
             .rebuilds::<CavePlaces>()
             .scratch(26 * 4 + 64);
     }
@@ -100,24 +102,36 @@ impl Plugin for Protochannels {
     }
 }
 
+/// How many protochannels there are.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProtochannelTally {
+    /// Protosinks.
+    pub wanted: u64,
+    /// Protosinks that a channel leads to.
+    pub reached: u64,
+}
+
 fn mark_places(
     mut commands: Commands,
     (settings, space): (Res<Settings<Protochannels>>, Res<Space>),
 ) {
     commands.insert_resource(CavePlaces::of(&space, &settings.sources, &[]));
+    commands.insert_resource(ProtochannelTally::default());
 }
 
 fn lay_channels(
     settings: Res<Settings<Protochannels>>,
     space: Res<Space>,
     clock: Res<Clock>,
-    mut fault: ResMut<Fault>,
+    (mut tally, mut fault): (ResMut<ProtochannelTally>, ResMut<Fault>),
     mut porosity: FieldMut<Porosity>,
     (mut zone, mut count): (FieldMut<PressureZone>, FieldMut<ProtochannelCount>),
 ) {
     let random = RandomStream::new(clock.seed, "protosinks");
     match settings.network(&space, porosity.values(), &random) {
         Ok((zones, network)) => {
+            let reached = network.paths.len() as u64;
+            *tally = ProtochannelTally { wanted: reached + network.missed as u64, reached };
             let number = |owner: u32| if owner == NO_SOURCE { 0.0 } else { f64::from(owner) + 1.0 };
             for (node, &channels) in network.channels.iter().enumerate() {
                 zone.values_mut()[node] = number(zones.owner[node]);

@@ -6,8 +6,11 @@ use landform_graph::{Edge, Lattice};
 use super::zones::{Seed, Zones};
 use crate::CaveError;
 
-/// Units of flow in a porosity of 1.
-const UNITS: f64 = 1000.0;
+/// Units of flow in a porosity of 1: so many that poor rock too lets one pass to each of many protosinks.
+const UNITS: f64 = 1e6;
+
+/// Porosity below which rock is as dear to pass as with it.
+const DENSE: f64 = 1e-3;
 
 /// A system of protochannels.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +19,9 @@ pub struct Network {
     pub channels: Vec<u32>,
     /// The channels, each from its source to its protosink.
     pub paths: Vec<Vec<usize>>,
-    /// Protosinks that flow did not reach.
+    /// Protosinks that flow cannot reach: behind rock without pores.
     pub missed: usize,
-    /// The largest flow, in thousandths of the porosity of a voxel.
+    /// The largest flow, in millionths of the porosity of a voxel.
     pub flow: u64,
 }
 
@@ -27,7 +30,8 @@ pub struct Network {
 /// The flow between two voxels of a zone is limited by the lesser porosity, by which its way is also
 /// judged: an edge costs its length over that, so flow keeps to good rock. Every protosink takes
 /// at most an even share of what its source can give: without that limit the few nearest would take
-/// all. From each protosink a channel then goes back up the flow, to the neighbour from which most
+/// all. Every one gets a unit before any gets its share, so that those which are cheap to reach leave
+/// some to those behind poor rock, and channels grow to all. From each protosink a channel then goes back up the flow, to the neighbour from which most
 /// comes, until it meets its source. Two channels that meet go on as one, so the channels of a source
 /// are a tree (thesis, section 5.2.1: following the flow from the sinks makes branches, from the source
 /// a mass).
@@ -44,12 +48,12 @@ pub fn protochannels(
     sinks: &[(usize, u32)],
 ) -> Result<Network, CaveError> {
     let units: Vec<u32> =
-        porosity.iter().map(|porosity| (porosity.clamp(0.0, 1.0) * UNITS) as u32).collect();
+        porosity.iter().map(|porosity| (porosity.clamp(0.0, 1.0) * UNITS).ceil() as u32).collect();
     let capacity = |from: usize, edge: &Edge| match zones.owner[from] == zones.owner[edge.node] {
         true => units[from].min(units[edge.node]),
         false => 0,
     };
-    let ease: Vec<f64> = porosity.iter().map(|porosity| porosity.clamp(1.0 / UNITS, 1.0)).collect();
+    let ease: Vec<f64> = porosity.iter().map(|porosity| porosity.clamp(DENSE, 1.0)).collect();
     let lengths = lattice.edge_lengths().map(|length| length / lattice.spacing());
     let cost = |from: usize, edge: &Edge| {
         let axes = edge.step.iter().filter(|along| **along != 0).count();
@@ -218,6 +222,35 @@ mod tests {
         let taken = network.channels.iter().filter(|&&channels| channels > 0).count();
         let steps: usize = network.paths.iter().map(|path| path.len() - 1).sum();
         assert!(taken < steps, "channels share their way");
+    }
+
+    /// A source of many voxels can give more than poor rock lets pass: some of its protosinks lie behind
+    /// what those that are reached first would fill.
+    #[test]
+    fn large_sources_reach_protosinks_in_poor_rock() {
+        let open = [Boundary::Open; 3];
+        let lattice = Lattice::volume([30, 30, 15], 1.0, Connectivity::Voxel26, open).unwrap();
+        let poor = |node: usize| lattice.coordinates(node)[0] > 18;
+        let porosity: Vec<f64> = rock(&lattice)
+            .into_iter()
+            .enumerate()
+            .map(|(node, porosity)| if poor(node) { 5e-5 } else { porosity })
+            .collect();
+        let seeds: Vec<Seed> = crate::place::box_nodes(&lattice, [0.2, 0.5, 0.5], [4.0; 3])
+            .unwrap()
+            .into_iter()
+            .map(|node| Seed { node, source: 0, pressure: 1.0 })
+            .collect();
+        let zones = pressure_zones(&lattice, |_| true, &seeds).unwrap();
+        let random = RandomStream::new(1, "protosinks");
+        let limits = (120, f64::INFINITY);
+        let near = (0, seeds[0].node);
+        let sinks = protosinks(&lattice, &zones, near, limits, None, |_| true, &random);
+        let behind = sinks.iter().filter(|&&sink| poor(sink)).count();
+        assert!(behind > 30, "{behind}");
+        let sinks: Vec<(usize, u32)> = sinks.into_iter().map(|sink| (sink, 0)).collect();
+        let network = protochannels(&lattice, &porosity, &zones, &seeds, &sinks).unwrap();
+        assert_eq!((network.missed, network.paths.len()), (0, 120));
     }
 
     #[test]

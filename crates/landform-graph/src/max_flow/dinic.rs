@@ -62,8 +62,19 @@ impl<'a, K: Fn(usize, &Edge) -> u32, C: Fn(usize, &Edge) -> f64> Dinic<'a, K, C>
         }
     }
 
-    /// Raises the flow until it is a maximum.
+    /// Raises the flow until it is a maximum: first a unit for every sink, as many as can have one at
+    /// once, then all that they want. What a sink has is not taken from it again.
     pub(super) fn solve(&mut self) -> Result<(), FlowError> {
+        let later: Vec<u64> =
+            self.demand.iter().map(|(_, wanted)| wanted.saturating_sub(1)).collect();
+        self.demand.iter_mut().for_each(|(_, wanted)| *wanted = (*wanted).min(1));
+        self.fill()?;
+        self.demand.iter_mut().zip(later).for_each(|((_, wanted), later)| *wanted += later);
+        self.fill()
+    }
+
+    /// Raises the flow until no sink can get more of what it wants.
+    fn fill(&mut self) -> Result<(), FlowError> {
         let wanted = |demand: &[(usize, u64)]| {
             demand.iter().map(|(_, wanted)| u128::from(*wanted)).sum::<u128>()
         };

@@ -11,6 +11,10 @@
 //! sink can be reached any more the flow is a maximum (Ford and Fulkerson 1956): what was reached and
 //! what was not are a cut without capacity left.
 //!
+//! Every sink gets a unit first, before any gets more, so that those which are reached first leave
+//! something to the others: a flow once at a sink stays there, whatever is changed on the way, so the flow
+//! is the largest in the end, and no other gives something to more of the sinks.
+//!
 //! The value of the flow does not depend on costs, but its ways do. When every edge costs 1 this is
 //! Dinic's algorithm; when edges cost their length over the porosity, flow keeps to good rock.
 //!
@@ -48,7 +52,8 @@ pub struct Terminal {
 pub struct MaximumFlow {
     /// All that flows from sources to sinks.
     pub value: u64,
-    /// What each sink takes, in the order in which they were given.
+    /// What each sink takes, in the order in which they were given; nothing only if no flow could
+    /// bring a unit to it and to all the others that have one.
     pub taken: Vec<u64>,
     /// Flow on directed edges by slot ([`Lattice::slot`]); less than 0 when it comes in, so that
     /// an edge and its reverse have opposite values.
@@ -106,7 +111,8 @@ pub enum FlowError {
 ///
 /// `capacity(from, edge)` is what may flow from `from` over the edge; it is asked again and again and
 /// must answer the same. `cost(from, edge)` is what the way over the edge costs, more than 0. What lies
-/// where no flow can come to is not asked about. Flow may pass through sources and sinks.
+/// where no flow can come to is not asked about. Flow may pass through sources and sinks. As many sinks
+/// as possible take something.
 ///
 /// ```
 /// use landform_graph::max_flow::{Terminal, maximum_flow};

@@ -70,6 +70,12 @@ proptest! {
         let cheap = maximum_flow(&lattice, capacity, cost, sources, sinks).unwrap();
         check(&lattice, &cheap, capacity, sources, sinks);
         prop_assert_eq!(cheap.value, value);
+        // As many sinks take something as units can be brought to at once.
+        let units: Vec<Terminal> =
+            sinks.iter().map(|sink| Terminal { most: sink.most.min(1), ..*sink }).collect();
+        let most_served = maximum_flow_value(&lattice, capacity, sources, &units);
+        let served = cheap.taken.iter().filter(|taken| **taken > 0).count();
+        prop_assert_eq!(served as u64, most_served);
     }
 }
 
