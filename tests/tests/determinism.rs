@@ -160,7 +160,7 @@ const GOLDEN: &[Case] = &[
         TORUS,
         0x414d_8710_a785_5d8e,
     ),
-    case("Protochannels()", &[PORES], PLATE, 0x29b8_7d3f_8867_f35c),
+    case("Protochannels()", &[PORES], PLATE, 0x7453_e4d6_30ec_67da),
     case("Protochannels(protosinks: 20)", &[PORES], BLOCK, 0x9f5d_923a_f63b_92b3),
     case("CaveGrowth(sweeps: 5)", &[PORES], PLATE, 0x4619_abf7_e1dc_0bc8),
     case("CaveGrowth(sweeps: 5, channel_rate_per_m: 0.1)", &[PORES], BLOCK, 0x46d7_50eb_7483_6759),

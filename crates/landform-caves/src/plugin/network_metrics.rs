@@ -39,10 +39,10 @@ impl Metric for PressureZones {
     }
 }
 
-/// Protochannels: `protochannel_voxels`; `protochannel_systems` that hang together;
-/// `protosinks`, and `protochannels_traced` to so many of them; `shared_percent` of the voxels that carry
-/// several channels, the stems of branches; and `clumped_percent`, voxels all neighbours of which, or
-/// all but a quarter, are protochannels too.
+/// Protochannels: `protochannel_voxels`; `protochannel_systems` that hang together; `protosinks`, and
+/// `protochannels_traced` to so many of them; `shared_percent` of the voxels that carry several
+/// channels, the stems of branches; and `clumped_percent`, voxels all neighbours of which, or all but a
+/// quarter, are protochannels too.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProtochannelSystems {}
