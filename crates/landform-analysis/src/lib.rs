@@ -18,8 +18,9 @@
 //!
 //! # Fractal dimension
 //! Of lines, by [`divider_dimension`] and [`box_dimension`]; of the boundary of a set of cells,
-//! by [`perimeter_dimension`]; of a height field, by [`variogram_dimension`]. The coasts of a
-//! raster are [`level_sets`].
+//! by [`perimeter_dimension`]; of a height field, by [`variogram_dimension`]; of what grows particle
+//! by particle, by [`gyration_dimension`]. The coasts of a raster are [`level_sets`]. Whether a line
+//! meets itself say [`self_crossings`].
 //!
 //! # Drainage
 //! [`hydrology`] follows water over a [`grid`](grid::Grid): depressions, flow directions,
@@ -31,6 +32,7 @@
 
 pub mod caves;
 mod creases;
+mod crossings;
 pub mod derivatives;
 mod detrend;
 mod dimension;
@@ -51,10 +53,11 @@ mod valleys;
 pub mod voxels;
 
 pub use creases::Creases;
+pub use crossings::self_crossings;
 pub use detrend::{remove_plane, taper};
 pub use dimension::{
     Dimension, DimensionError, RangeError, ScalePoint, ScaleRange, box_dimension,
-    divider_dimension, perimeter_dimension, variogram_dimension,
+    divider_dimension, gyration_dimension, perimeter_dimension, variogram_dimension,
 };
 pub use fit::SpectralFit;
 pub use hypsometry::{

@@ -2,8 +2,8 @@
 //!
 //! A [`HeightField`] is checked once; then [`relief::shaded_relief`] draws it as a map and
 //! [`perspective::render`] as a block or as ground to the horizon. [`flat`] draws any other field
-//! with a colour bar, [`body`] closed surfaces such as caves, [`cave_map`] their maps, [`cloud`]
-//! values of a volume, [`graph`] draws nodes and edges, [`montage`] puts pictures together as figures, [`plot`] draws curves with
+//! with a colour bar, [`body`] closed surfaces such as caves, [`interior`] what a lamp shows inside
+//! them, [`cave_map`] their maps, [`cloud`] values of a volume, [`graph`] draws nodes and edges, [`montage`] puts pictures together as figures, [`plot`] draws curves with
 //! axes, and [`animation`] writes frames to a file as a run goes on. Everything is computed on the CPU, and the bytes do not
 //! depend on the number of threads.
 //!
@@ -42,6 +42,7 @@ pub mod graph;
 mod height_field;
 mod horizon;
 mod image;
+pub mod interior;
 mod light;
 pub mod mark;
 pub mod montage;

@@ -12,7 +12,8 @@ pub fn registry() -> Registry {
     registry
         .initial::<inputs::DomainRaster>()
         .initial::<inputs::RasterFile>()
-        .initial::<inputs::LandAbove>();
+        .initial::<inputs::LandAbove>()
+        .initial::<inputs::HypsometricGround>();
     landform_synth::register(&mut registry);
     landform_caves::register(&mut registry);
     landform_coast::register(&mut registry);
@@ -33,7 +34,10 @@ pub fn registry() -> Registry {
         .metric::<metrics::ValleyHeads>()
         .metric::<metrics::ValleySpacing>()
         .metric::<metrics::CaveShape>()
-        .metric::<metrics::VoxelTopology>();
+        .metric::<metrics::VoxelTopology>()
+        .metric::<metrics::LineShape>()
+        .metric::<metrics::BranchShape>()
+        .metric::<metrics::VolumeSlope>();
     registry
         .output::<outputs::Picture>()
         .output::<outputs::Panels>()

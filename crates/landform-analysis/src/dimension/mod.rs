@@ -2,12 +2,14 @@
 
 mod boxes;
 mod divider;
+mod gyration;
 mod perimeter;
 mod variogram;
 mod window;
 
 pub use boxes::box_dimension;
 pub use divider::divider_dimension;
+pub use gyration::gyration_dimension;
 pub use perimeter::perimeter_dimension;
 pub use variogram::variogram_dimension;
 pub use window::{RangeError, ScaleRange};
@@ -63,9 +65,9 @@ pub struct Dimension {
 /// The measure at one scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ScalePoint {
-    /// Ruler, box, block or lag in metres.
+    /// Ruler, box, block, lag or radius in metres.
     pub scale_m: f64,
-    /// Steps of the ruler, boxes, length in metres, or semivariance: see the method.
+    /// Steps of the ruler, boxes, length in metres, semivariance or particles: see the method.
     pub measure: f64,
     /// Dimension between the neighbouring scales alone.
     pub local_dimension: f64,
@@ -81,6 +83,8 @@ struct Rule {
 impl Rule {
     /// A number of pieces grows as scale^-D.
     const COUNT: Self = Self { at_zero: 0.0, gain: -1.0 };
+    /// A mass grows as scale^D.
+    const MASS: Self = Self { at_zero: 0.0, gain: 1.0 };
     /// A length grows as scale^(1 - D).
     const LENGTH: Self = Self { at_zero: 1.0, gain: -1.0 };
     /// The semivariance of a surface grows as lag^(2 (3 - D)).

@@ -60,6 +60,11 @@ impl Camera {
         (point - self.position).dot(self.forward)
     }
 
+    /// An offset in metres to the right, up and ahead of the camera.
+    pub(crate) fn turned(&self, [right, up, ahead]: [f64; 3]) -> DVec3 {
+        self.right * right + self.up * up + self.forward * ahead
+    }
+
     /// Angle between the rays of neighbouring pixels in the middle, in radians.
     pub(crate) fn pixel_angle(&self) -> f64 {
         2.0 * self.half_width / self.size[0]

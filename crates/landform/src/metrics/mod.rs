@@ -1,28 +1,35 @@
-//! Metrics that need more than the framework: measures of the form of a terrain.
+//! Metrics that need more than the framework: measures of the form of a terrain, of
+//! lines and of branches.
 
+mod branch_shape;
 mod cave_shape;
 mod creases;
 mod depressions;
 mod drainage;
 mod hypsometry;
+mod line_shape;
 mod shore;
 mod side_dimension;
 mod spectral;
 mod topology;
 mod valley_spacing;
 mod valleys;
+mod volume_slope;
 
+pub use branch_shape::BranchShape;
 pub use cave_shape::CaveShape;
 pub use creases::Creases;
 pub use depressions::Depressions;
 pub use drainage::{Drainage, Pits};
 pub use hypsometry::{FirstCurve, Hypsometry};
+pub use line_shape::{KnownLine, LineShape};
 pub use shore::{ShoreDimension, ShoreLevel};
 pub use side_dimension::SideDimension;
 pub use spectral::SpectralFalloff;
 pub use topology::VoxelTopology;
 pub use valley_spacing::ValleySpacing;
 pub use valleys::ValleyHeads;
+pub use volume_slope::VolumeSlope;
 
 pub(crate) use hypsometry::hypsometry_columns;
 

@@ -1,4 +1,4 @@
-//! Branches that outputs write.
+//! Branches that outputs write and metrics measure.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ impl Default for BranchSource {
 
 impl BranchSource {
     /// Refuses what can be seen before a run.
-    pub(super) fn check(&self, lattice: &Lattice) -> Result<(), Problem> {
+    pub(crate) fn check(&self, lattice: &Lattice) -> Result<(), Problem> {
         let checked = match self {
             Self::Dendrite(dendrite) => dendrite.check(),
             Self::Aggregate(aggregate) => aggregate.check(),
@@ -40,7 +40,7 @@ impl BranchSource {
     }
 
     /// The branches on the lattice of a run.
-    pub(super) fn branching(&self, snapshot: &Snapshot<'_>) -> Result<Branching, Problem> {
+    pub(crate) fn branching(&self, snapshot: &Snapshot<'_>) -> Result<Branching, Problem> {
         let (lattice, seed) = (snapshot.lattice(), snapshot.clock().seed);
         let made = match self {
             Self::Dendrite(dendrite) => dendrite.branching(Path::new(""), lattice, seed),

@@ -41,8 +41,8 @@ pub use lake_outlines::LakeOutlines;
 pub use landform_sim::output::When;
 pub use level_lines::LevelLines;
 pub use look::{
-    CaveMap, CaveMapView, Cloud, CloudOpacity, Density, DensityAxes, Flat, Look, Perspective,
-    Relief, Section, WaterDepths,
+    CaveInterior, CaveLamp, CaveMap, CaveMapView, CaveRock, CaveWater, Cloud, CloudOpacity,
+    Density, DensityAxes, Flat, Look, Perspective, Relief, Section, WaterDepths,
 };
 pub use mesh::Mesh;
 pub use panels::Panels;

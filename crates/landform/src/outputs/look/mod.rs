@@ -1,6 +1,7 @@
 //! How a field is drawn: as a map under light, in perspective, as flat colours, as a slice or
-//! a body or a cloud of a volume, as the map of a cave, as a spectrum, as a hypsometric curve, as a section.
+//! a body or a cloud of a volume, as the map of a cave or a cave from inside, as a spectrum, as a hypsometric curve, as a section.
 
+mod cave_interior;
 mod cave_map;
 mod cloud;
 mod flat;
@@ -14,9 +15,11 @@ mod profile;
 mod relief;
 mod section;
 mod slice;
+mod standpoint;
 mod subject;
 mod text;
 
+pub use cave_interior::{CaveInterior, CaveLamp, CaveRock, CaveWater};
 pub use cave_map::{CaveMap, CaveMapView};
 pub use cloud::{Cloud, CloudOpacity};
 pub use flat::{Density, DensityAxes, Flat};
@@ -55,6 +58,8 @@ pub enum Look {
     Passages(Passages),
     /// The voxels of at least a value as a map of a cave: plan and elevations.
     CaveMap(CaveMap),
+    /// The voxels of at least a value as a cave from inside, in the light of a lamp.
+    CaveInterior(CaveInterior),
     /// The values of a volume as a translucent cloud.
     Cloud(Cloud),
     /// The spectral density of the field.
@@ -78,6 +83,7 @@ impl Look {
             Self::Slice(slice) => return slice.draw(lattice, subject),
             Self::Passages(passages) => return passages.draw(lattice, subject),
             Self::CaveMap(map) => return map.draw(lattice, subject),
+            Self::CaveInterior(inside) => return inside.draw(lattice, subject),
             Self::Cloud(cloud) => return cloud.draw(lattice, subject),
             _ => {}
         }
@@ -115,6 +121,7 @@ impl Look {
             Self::Slice(slice) => slice.flat().draw(values, width, height, &subject.unit),
             Self::Passages(passages) => passages.trial(),
             Self::CaveMap(map) => map.trial(),
+            Self::CaveInterior(inside) => inside.trial(),
             Self::Cloud(cloud) => cloud.trial(),
             Self::Spectrum(density) => density.draw(values, [width, height]),
             Self::Hypsometry(curve) => curve.figure(values).image(),
@@ -140,6 +147,7 @@ impl Look {
             | Self::Slice(_)
             | Self::Passages(_)
             | Self::CaveMap(_)
+            | Self::CaveInterior(_)
             | Self::Cloud(_)
             | Self::Spectrum(_) => None,
         }
@@ -160,6 +168,7 @@ impl Look {
             | Self::Slice(_)
             | Self::Passages(_)
             | Self::CaveMap(_)
+            | Self::CaveInterior(_)
             | Self::Cloud(_)
             | Self::Spectrum(_)
             | Self::Hypsometry(_) => None,
@@ -208,6 +217,7 @@ impl Look {
             | Self::Slice(_)
             | Self::Passages(_)
             | Self::CaveMap(_)
+            | Self::CaveInterior(_)
             | Self::Cloud(_) => None,
         }
     }
@@ -221,6 +231,7 @@ impl Look {
             Self::Passages(passages) => <[usize; 2]>::from(passages.size).map(|size| size as f64),
             Self::Cloud(cloud) => <[usize; 2]>::from(cloud.size).map(|size| size as f64),
             Self::CaveMap(map) => map.samples(lattice),
+            Self::CaveInterior(inside) => <[usize; 2]>::from(inside.size).map(|size| size as f64),
             Self::Slice(slice) => {
                 slice.size(lattice).map(|voxels| (voxels * slice.pixels_per_node) as f64)
             }
@@ -238,14 +249,20 @@ impl Look {
             return Err(Problem::new("look", message, format!("from 1 to {MOST_PIXELS} pixels")));
         }
         let layers = lattice.depth();
-        let of_volumes =
-            matches!(self, Self::Slice(_) | Self::Passages(_) | Self::CaveMap(_) | Self::Cloud(_));
+        let of_volumes = matches!(
+            self,
+            Self::Slice(_)
+                | Self::Passages(_)
+                | Self::CaveMap(_)
+                | Self::CaveInterior(_)
+                | Self::Cloud(_)
+        );
         if layers > 1 && !of_volumes {
             let message = format!("the domain has {layers} layers, and the look shows a map");
             return Err(Problem::new(
                 "look",
                 message,
-                "the look Slice, which shows one of them, Passages, CaveMap or Cloud",
+                "the look Slice, which shows one of them, Passages, CaveMap, CaveInterior or Cloud",
             ));
         }
         match self {
@@ -284,7 +301,11 @@ impl Look {
             Self::Slice(slice) => slice.range,
             Self::Cloud(cloud) => cloud.range,
             Self::Section(section) => section.range_m,
-            Self::Passages(_) | Self::CaveMap(_) | Self::Spectrum(_) | Self::Hypsometry(_) => None,
+            Self::Passages(_)
+            | Self::CaveMap(_)
+            | Self::CaveInterior(_)
+            | Self::Spectrum(_)
+            | Self::Hypsometry(_) => None,
         }
     }
 
@@ -297,7 +318,11 @@ impl Look {
             Self::Slice(slice) => slice.range = Some(range),
             Self::Cloud(cloud) => cloud.range = Some(range),
             Self::Section(section) => section.range_m = Some(range),
-            Self::Passages(_) | Self::CaveMap(_) | Self::Spectrum(_) | Self::Hypsometry(_) => {}
+            Self::Passages(_)
+            | Self::CaveMap(_)
+            | Self::CaveInterior(_)
+            | Self::Spectrum(_)
+            | Self::Hypsometry(_) => {}
         }
         self
     }
