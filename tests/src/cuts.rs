@@ -46,8 +46,9 @@ pub fn cuts(scenario: &Path, raster: &Path) -> Vec<String> {
     }
     for output in (0..).take_while(|output| value(&format!("outputs[{output}]")).is_some()) {
         let look = format!("outputs[{output}].look");
-        let in_perspective =
-            |look: &str| ["Perspective", "Passages"].iter().any(|name| look.starts_with(name));
+        let in_perspective = |look: &str| {
+            ["Perspective", "Passages", "CaveInterior"].iter().any(|name| look.starts_with(name))
+        };
         if value(&look).is_some_and(in_perspective) {
             cuts.push(format!("{look}.size=(96, 60)"));
         }

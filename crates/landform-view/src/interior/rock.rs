@@ -47,7 +47,7 @@ impl Default for Rock {
             bed_m: 0.9,
             patch_m: 3.0,
             grain_m: 0.7,
-            relief: 0.2,
+            relief: 0.16,
             flat_deg: 40.0,
             variety: 1.0,
         }
