@@ -113,3 +113,45 @@ fn diamond_square_leaves_creases() {
     };
     assert!(sharpest("DiamondSquare") >= 2.0 * sharpest("FourEight"));
 }
+
+/// Koch's curve of level 6 is (4/3)^6 long; the triangle and Cantor's set have no ends.
+#[test]
+fn known_lines_have_their_shape() {
+    let shape = |of: &str| measured(OPEN, "Uniform()", &format!("LineShape(of: {of})"));
+    let koch = shape("Koch(level: 6), scales_m: (4.0, 64.0)");
+    assert!((value(&koch, "line_tortuosity") / (4.0_f64 / 3.0).powi(6) - 1.0).abs() < 1e-9);
+    assert_eq!(value(&koch, "line_crossings"), 0.0);
+    assert!((value(&koch, "line_divider_dimension") - 1.2619).abs() < 0.03, "{koch:?}");
+    let triangle = shape("Triangle(level: 7), scales_m: (16.0, 128.0)");
+    assert!((value(&triangle, "line_box_dimension") - 1.585).abs() < 0.05, "{triangle:?}");
+    assert_eq!(triangle.len(), 1, "{triangle:?}");
+    let straight = shape("Squig(level: 5, shortcut: 1.0), scales_m: (20.0, 60.0)");
+    assert!((value(&straight, "line_tortuosity") - 1.0).abs() < 0.01, "{straight:?}");
+}
+
+/// An aggregate is one tree, a dendrite with two generators two; no branch stands on another.
+#[test]
+fn branches_make_the_trees_that_they_should() {
+    let shape =
+        |of: &str| measured(OPEN, "Uniform()", &format!("BranchShape(of: {of}, skipped: 50)"));
+    let aggregate = shape("Aggregate(particles: 600)");
+    assert_eq!(value(&aggregate, "branch_trees"), 1.0);
+    assert!((1.4..2.0).contains(&value(&aggregate, "branch_gyration_dimension")), "{aggregate:?}");
+    let two = shape("Dendrite(generators: [(0.0, 0.0, 0.0), (1.0, 1.0, 0.0)])");
+    assert_eq!([value(&two, "branch_trees"), value(&two, "branch_meetings")], [2.0, 0.0]);
+    assert!((1.0..3.0).contains(&value(&two, "branch_tortuosity")), "{two:?}");
+}
+
+/// The distance from a ball is as steep as its bound, 1, and (1 - x) / (1 + x) has the integral
+/// 2 ln 2 - 1.
+#[test]
+fn bounds_of_volumes_and_curves_of_ground_are_the_known_ones() {
+    let ball = "VolumeSlope(of: (of: Ball(center_m: (300.0, 300.0, 0.0), radius_m: 90.0)))";
+    let found = measured(OPEN, "Uniform()", ball);
+    assert!((0.99..=1.0 + 1e-9).contains(&value(&found, "volume_slope_share")), "{found:?}");
+    let ground = "HypsometricGround(curve: Strahler(a_over_d: 0.5, z: 1.0))";
+    let curve = measured("size: (2001, 2), spacing_m: 1.0", ground, "Hypsometry()");
+    let expected = 2.0 * std::f64::consts::LN_2 - 1.0;
+    assert!((value(&curve, "hypsometry_integral") - expected).abs() < 1e-3, "{curve:?}");
+    assert!((value(&curve, "hypsometry_a_over_d") - 0.5).abs() < 0.05, "{curve:?}");
+}

@@ -21,8 +21,8 @@ use super::columns;
 pub enum KnownLine {
     /// Koch's curve, of dimension 1.2619.
     Koch {
-        /// How often it is made finer, at most 10.
-        #[schemars(range(min = 0, max = 10))]
+        /// How often it is made finer, at most 9.
+        #[schemars(range(min = 0, max = 9))]
         level: u32,
     },
     /// Koch's quadric curve, of dimension 1.5.
@@ -33,18 +33,17 @@ pub enum KnownLine {
     },
     /// Cantor's set, of dimension 0.6309.
     Cantor {
-        /// How often it is made finer, at most 20.
-        #[schemars(range(min = 0, max = 20))]
+        /// How often it is made finer, at most 16.
+        #[schemars(range(min = 0, max = 16))]
         level: u32,
     },
     /// Sierpinski's triangle, of dimension 1.5850.
     Triangle {
-        /// How often it is made finer, at most 12.
-        #[schemars(range(min = 0, max = 12))]
+        /// How often it is made finer, at most 10.
+        #[schemars(range(min = 0, max = 10))]
         level: u32,
     },
-    /// A squig, with the random numbers of the run: that of a construction tree with the same level and
-    /// shortcut.
+    /// A squig, with random numbers of the run's seed.
     Squig {
         /// How often its pieces are parted, at most 11.
         #[schemars(range(min = 0, max = 11))]

@@ -23,7 +23,7 @@ pub struct VolumeSlope {
     /// folder that the program runs in.
     pub of: ImplicitVolume,
     /// Pairs of places: half of them anywhere, half of them near each other.
-    #[schemars(range(min = 2, max = 10_000_000))]
+    #[schemars(range(min = 2, max = 1_000_000))]
     pub pairs: u32,
 }
 
