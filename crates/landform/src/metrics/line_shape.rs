@@ -4,6 +4,7 @@ use landform_analysis::{
     Polyline, RangeError, ScaleRange, box_dimension, divider_dimension, self_crossings,
 };
 use landform_graph::Lattice;
+use landform_sim::code::Code;
 use landform_sim::metric::Metric;
 use landform_sim::parameters::Problem;
 use landform_sim::snapshot::Snapshot;
@@ -123,24 +124,19 @@ impl Metric for LineShape {
     const NAME: &'static str = "LineShape";
 
     fn validate(&self, _: &Lattice) -> Result<(), Problem> {
-        let refusal = |error: SynthError| Problem::new("of", error.to_string(), "");
         self.of.points(0).map_err(refusal)?;
         self.of.specks().map_err(refusal)?;
         let scales = self.scales_m.map(|(least, most)| ScaleRange::new(least, most));
         let scales = scales.transpose().map(|_| ());
-        scales.map_err(|error| Problem::new("scales_m", error.to_string(), ""))
+        scales.map_err(|error| misfit(&error))
     }
 
     fn measure(&self, (): &mut (), snapshot: &Snapshot<'_>) -> Result<Vec<(String, f64)>, Problem> {
-        let refusal = |error: SynthError| Problem::new("of", error.to_string(), "");
         let points = self.of.points(snapshot.clock().seed).map_err(refusal)?;
         let specks = self.of.specks().map_err(refusal)?;
         let whole = points.as_deref().and_then(line);
         let lines: Vec<Polyline> =
             whole.into_iter().chain(specks.iter().filter_map(|speck| line(speck))).collect();
-        let misfit = |error: &dyn std::error::Error| {
-            Problem::new("scales_m", error.to_string(), "scales that suit the line")
-        };
         let range = self.range(&lines).map_err(|error| misfit(&error))?;
         let boxes = box_dimension(&lines, &range).map_err(|error| misfit(&error))?;
         let divider = points.as_ref().map(|_| divider_dimension(&lines, &range)).transpose();
@@ -153,6 +149,14 @@ impl Metric for LineShape {
             ("line_tortuosity", of_line(tortuosity)),
         ]))
     }
+}
+
+fn refusal(error: SynthError) -> Problem {
+    Problem::new("of", error.to_string(), "").code(error.code())
+}
+
+fn misfit(error: &dyn std::error::Error) -> Problem {
+    Problem::new("scales_m", error.to_string(), "scales that suit the line").code(Code::Rulers)
 }
 
 /// Length of a line by the distance of its ends.

@@ -71,5 +71,5 @@ impl Metric for VolumeSlope {
 }
 
 fn refusal(error: SynthError) -> Problem {
-    Problem::new("of", error.to_string(), "")
+    Problem::new("of", error.to_string(), "").code(error.code())
 }
