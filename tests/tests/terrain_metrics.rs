@@ -125,8 +125,9 @@ fn known_lines_have_their_shape() {
     let triangle = shape("Triangle(level: 7), scales_m: (16.0, 128.0)");
     assert!((value(&triangle, "line_box_dimension") - 1.585).abs() < 0.05, "{triangle:?}");
     assert_eq!(triangle.len(), 1, "{triangle:?}");
-    let straight = shape("Squig(level: 5, shortcut: 1.0), scales_m: (20.0, 60.0)");
-    assert!((value(&straight, "line_tortuosity") - 1.0).abs() < 0.01, "{straight:?}");
+    let squig = shape("Squig(level: 7, shortcut: 0.75), scales_m: (8.0, 128.0)");
+    assert_eq!(value(&squig, "line_crossings"), 0.0);
+    assert!((1.05..1.3).contains(&value(&squig, "line_divider_dimension")), "{squig:?}");
 }
 
 /// An aggregate is one tree, a dendrite with two generators two; no branch stands on another.

@@ -11,7 +11,8 @@
 //! wall and there are no seams.
 //!
 //! # Limits
-//! Rays are mirrored once. A camera below the surface of water sees through it, without its underside.
+//! Triangles should be of like size: large ones among many small ones cost memory. Rays are mirrored
+//! once. A camera below the surface of water sees through it, without its underside.
 
 mod draw;
 mod mesh;
