@@ -254,7 +254,7 @@ mod tests {
         (set, 1 + 2 * sides, lines.iter().map(|&[from, to]| distance(from, to)).sum())
     }
 
-    /// Voxels side by side in turn, as listing A.5 has it, make twice as many branches, a third longer.
+    /// With voxels thinned side by side in turn, as listing A.5 has it, lines are a third longer.
     #[test]
     fn rough_walls_are_no_passages() {
         let (mut off, mut length): (f64, f64) = (0.0, 0.0);

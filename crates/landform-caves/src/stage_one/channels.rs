@@ -224,8 +224,8 @@ mod tests {
         assert!(taken < steps, "channels share their way");
     }
 
-    /// A source of many voxels can give more than poor rock lets pass: some of its protosinks lie behind
-    /// what those that are reached first would fill.
+    /// A source of many voxels gives every protosink a large share, of which rock with next to no pores
+    /// lets little pass.
     #[test]
     fn large_sources_reach_protosinks_in_poor_rock() {
         let open = [Boundary::Open; 3];

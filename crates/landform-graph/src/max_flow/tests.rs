@@ -114,6 +114,15 @@ fn what_has_no_meaning_is_refused() {
     }
 }
 
+/// The way to the farther sink leads through the nearer one, which could take all.
+#[test]
+fn every_sink_gets_a_unit_first() {
+    let lattice = Lattice::plane([4, 1], 1.0, Connectivity::Four, [Boundary::Open; 2]).unwrap();
+    let at = |node| Terminal { node, most: 10 };
+    let flow = maximum_flow(&lattice, |_, _| 10, |_, _| 1.0, &[at(0)], &[at(2), at(3)]).unwrap();
+    assert_eq!((flow.value, flow.taken.as_slice()), (10, &[9, 1][..]));
+}
+
 /// Of two ways of the same number of edges flow takes the cheaper.
 #[test]
 fn flow_keeps_to_cheap_ways() {
