@@ -342,6 +342,7 @@ fn target_files_that_cannot_work_are_refused_before_the_first_run() {
             assert!(message.contains(part), "{to}: no `{part}` in\n{message}");
         }
         assert!(message.contains("t.targets.ron"), "{message}");
+        assert_eq!(message.matches("error[").count(), 1, "{message}");
         assert_eq!(scratch.names(), ["small.ron", "t.targets.ron"], "{to}");
     }
     let scratch = Scratch::new("reproduce_none");

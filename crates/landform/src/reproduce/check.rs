@@ -25,9 +25,8 @@ pub fn check(
     let mut stages = Vec::with_capacity(figure.runs.len());
     let mut descriptions = Vec::with_capacity(figure.runs.len());
     for run in &figure.runs {
-        let found = check_run(run, base, registry, limits);
         let (of_run, description) =
-            found.map_err(|why| why.trim_start_matches("error: ").to_owned())?;
+            check_run(run, base, registry, limits).map_err(|why| without_code(&why).to_owned())?;
         stages.push((run.name.as_str(), of_run));
         descriptions.push(description);
     }
@@ -56,6 +55,12 @@ pub fn check(
         0 => Err(format!("{}: zero seeds; expected at least one", figure.id)),
         _ => Ok(descriptions),
     }
+}
+
+/// A message without `error[L0102]: ` before it: the target file has a code of its own.
+fn without_code(message: &str) -> &str {
+    let rest = message.strip_prefix("error").and_then(|rest| rest.split_once(": "));
+    rest.map_or(message, |(_, rest)| rest)
 }
 
 /// Checks a run and returns the names of its stages, and what its scenario says of itself.
